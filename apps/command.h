@@ -1,0 +1,57 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "indet/base/progress.h"
+
+namespace indet::app {
+
+/// Exit statuses of the program (128 + n on signal n).
+enum ExitStatus : int {
+  kDone = 0,
+  kInternalError = 1,
+  kUsage = 2,
+  kBadInput = 3,  ///< Nothing was written.
+  kNoAdmissibleState = 4,
+  kUncertain = 5  ///< Done, but something is imprecise or not solved.
+};
+
+/// What every subcommand shares: the global options, the terminal, the configuration that was resolved.
+struct Context {
+  int threads = 0;              ///< 0: as many as the machine has.
+  bool json = false;            ///< Print one JSON document on stdout instead of text.
+  bool quiet = false;           ///< Neither progress nor notes on stderr.
+  std::string resolved_config;  ///< TOML of every option of this run, as stored in the files that it writes.
+  std::vector<std::string> arguments;  ///< argv.
+
+  int thread_count() const;  ///< `threads`, or the number of cores.
+
+  /// Draws a progress bar on stderr (on a terminal, and not with --quiet) once a stage has lasted half a
+  /// second, and asks the library to stop once a signal has arrived.
+  ProgressCallback progress() const;
+
+  /// One line on stderr, unless --quiet.
+  void note(const std::string& text) const;
+  /// One line on stderr, always: "warning: …".
+  void warn(const std::string& text) const;
+};
+
+/// A subcommand: its options live in `options`, `run` is called after parsing and returns the exit status.
+/// Bad input is thrown as InputError; main turns exceptions into messages and exit statuses.
+struct Command {
+  CLI::App* options = nullptr;
+  std::function<int(const Context&)> run;
+};
+
+// One file a subcommand.
+Command add_import(CLI::App& root);
+Command add_analyze(CLI::App& root);
+Command add_inspect(CLI::App& root);
+Command add_verify(CLI::App& root);
+Command add_export(CLI::App& root);
+Command add_completion(CLI::App& root);
+
+}  // namespace indet::app

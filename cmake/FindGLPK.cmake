@@ -1,0 +1,18 @@
+# Defines GLPK::GLPK. Debian ships GLPK without a CMake package.
+find_path(GLPK_INCLUDE_DIR glpk.h)
+find_library(GLPK_LIBRARY glpk)
+if(GLPK_INCLUDE_DIR AND EXISTS "${GLPK_INCLUDE_DIR}/glpk.h")
+  file(STRINGS "${GLPK_INCLUDE_DIR}/glpk.h" _major REGEX "define GLP_MAJOR_VERSION")
+  file(STRINGS "${GLPK_INCLUDE_DIR}/glpk.h" _minor REGEX "define GLP_MINOR_VERSION")
+  string(REGEX MATCH "[0-9]+" _major "${_major}")
+  string(REGEX MATCH "[0-9]+" _minor "${_minor}")
+  set(GLPK_VERSION "${_major}.${_minor}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(GLPK REQUIRED_VARS GLPK_LIBRARY GLPK_INCLUDE_DIR VERSION_VAR GLPK_VERSION)
+if(GLPK_FOUND AND NOT TARGET GLPK::GLPK)
+  add_library(GLPK::GLPK UNKNOWN IMPORTED)
+  set_target_properties(GLPK::GLPK PROPERTIES IMPORTED_LOCATION "${GLPK_LIBRARY}"
+    INTERFACE_INCLUDE_DIRECTORIES "${GLPK_INCLUDE_DIR}")
+endif()
+mark_as_advanced(GLPK_INCLUDE_DIR GLPK_LIBRARY)

@@ -1,0 +1,20 @@
+include(CMakePackageConfigHelpers)
+
+get_property(stages GLOBAL PROPERTY INDET_STAGES)
+install(TARGETS ${stages} EXPORT indetTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+get_property(folders GLOBAL PROPERTY INDET_STAGE_FOLDERS)
+foreach(entry IN LISTS folders)
+  string(REGEX MATCH "^(.*):([a-z]+)$" _ "${entry}")
+  install(DIRECTORY ${CMAKE_MATCH_1}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/indet/${CMAKE_MATCH_2}
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/indet)
+install(EXPORT indetTargets NAMESPACE indet:: DESTINATION ${config_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/indetConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/indetConfig.cmake INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/indetConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/indetConfig.cmake ${PROJECT_BINARY_DIR}/indetConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindGLPK.cmake ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake
+  DESTINATION ${config_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,68 @@
+#include "indet/packing/packing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "indet/base/error.h"
+
+namespace indet {
+
+double Packing::force_unit() const {
+  if (named_force_unit > 0) return named_force_unit;
+  if (disks.empty()) return 1;
+  double mass = 0;
+  for (const Disk& disk : disks) mass += disk.mass / static_cast<double>(disks.size());
+  const double weight = gravity.stableNorm() * mass;
+  if (!(weight > 0)) {
+    throw InputError(
+        "the scene has no gravity, so it must name its unit of force (force_unit in scene.toml)");
+  }
+  return weight;
+}
+
+double Packing::max_radius() const {
+  double radius = 0;
+  for (const Disk& disk : disks) radius = std::max(radius, disk.radius);
+  return radius > 0 ? radius : 1;
+}
+
+Vector3 Packing::wrench(DiskId disk) const {
+  const Disk& d = (*this)[disk];
+  return {d.mass * gravity.x() + d.load.x(), d.mass * gravity.y() + d.load.y(), d.load.z()};
+}
+
+Eigen::VectorXd Packing::simulated_forces() const {
+  Eigen::VectorXd forces(2 * contact_count());
+  for (int i = 0; i < contact_count(); ++i) {
+    forces[2 * i] = (*this)[ContactId(i)].R;
+    forces[2 * i + 1] = (*this)[ContactId(i)].T;
+  }
+  return forces;
+}
+
+bool Packing::has_simulated_forces() const {
+  return std::all_of(contacts.begin(), contacts.end(),
+                     [](const Contact& c) { return std::isfinite(c.R) && std::isfinite(c.T); });
+}
+
+Vector2 geometric_normal(const Packing& packing, DiskId a, Body b) {
+  if (b.is_wall()) return packing[b.wall_id()].normal.stableNormalized();
+  const Vector2 difference = packing[a].position - packing[b.disk_id()].position;
+  const Vector2 normal = difference.stableNormalized();
+  if (!(normal.squaredNorm() > 0.5)) {
+    throw InputError("the centres of the two disks coincide, so the contact has no normal");
+  }
+  return normal;
+}
+
+double geometric_gap(const Packing& packing, DiskId a, Body b) {
+  const Disk& disk = packing[a];
+  if (b.is_wall()) {
+    const Wall& wall = packing[b.wall_id()];
+    return (disk.position - wall.point).dot(wall.normal) - disk.radius;
+  }
+  const Disk& other = packing[b.disk_id()];
+  return (disk.position - other.position).stableNorm() - (disk.radius + other.radius);
+}
+
+}  // namespace indet

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "indet/base/index.h"
+
+namespace indet {
+
+using Vector2 = Eigen::Vector2d;
+using Vector3 = Eigen::Vector3d;
+
+/// A static packing of rigid disks, in the units of its scene (docs/notation.md). This is the value that
+/// simulators and importers return, and that the analysis starts from.
+///
+/// Contact α joins disk a and body b (a disk or a wall). n̂ points from b to a [9]; t̂ = n̂ × ẑ = (n_y, −n_x)
+/// [10]. The force on a is R n̂ + T t̂, on b the opposite [11]; the lever arm is the disk's radius, so the
+/// torque on every disk that takes part is + r T [15]. (Numbers in brackets: equations of McNamara and
+/// Herrmann.)
+
+/// One rigid disk.
+struct Disk {
+  std::int32_t id = 0;  ///< The name that the user gave it; not an index.
+  Vector2 position{0, 0};
+  double radius = 0;
+  double mass = 0;
+  double inertia = 0;  ///< Moment of inertia; m r²/2 unless the scene says otherwise.
+  double angle = 0;    ///< Orientation, radian.
+  Vector2 velocity{0, 0};
+  double angular_velocity = 0;
+  Vector3 load{0, 0, 0};  ///< External force x, y and torque, beside gravity.
+};
+
+/// A fixed half-plane: the domain is {x : normal · (x − point) ≥ 0}.
+struct Wall {
+  std::int32_t id = 0;
+  Vector2 point{0, 0};
+  Vector2 normal{0, 1};  ///< Unit vector, pointing into the domain.
+  std::string name;
+};
+
+/// The second body of a contact: a disk or a wall. In files a wall w is written as −(w + 1).
+class Body {
+ public:
+  Body() = default;
+  static Body disk(DiskId id) { return Body(id.value()); }
+  static Body wall(WallId id) { return Body(-(id.value() + 1)); }
+  static Body from_code(std::int32_t code) { return Body(code); }
+
+  bool is_wall() const { return code_ < 0; }
+  DiskId disk_id() const { return DiskId(code_); }       ///< Precondition: !is_wall().
+  WallId wall_id() const { return WallId(-code_ - 1); }  ///< Precondition: is_wall().
+  std::int32_t code() const { return code_; }
+  bool operator==(const Body&) const = default;
+
+ private:
+  explicit Body(std::int32_t code) : code_(code) {}
+  std::int32_t code_ = 0;
+};
+
+/// One contact, with the forces that the simulation found, where they are known.
+struct Contact {
+  DiskId a;
+  Body b;
+  Vector2 normal{0, 0};  ///< n̂, unit, from b to a.
+  double gap = 0;        ///< Distance of the surfaces; negative where they overlap.
+  double mu = 0;         ///< Coulomb friction coefficient of this contact, ≥ 0.
+  double R = std::numeric_limits<double>::quiet_NaN();  ///< Normal force as simulated; NaN if unknown.
+  double T = std::numeric_limits<double>::quiet_NaN();  ///< Tangential force as simulated; NaN if unknown.
+
+  /// t̂ = n̂ × ẑ = (n_y, −n_x) [10].
+  Vector2 tangent() const { return {normal.y(), -normal.x()}; }
+};
+
+/// Where a packing comes from: attributes of /parameters in its file.
+struct Origin {
+  std::string protocol;    ///< "cd1", "md2", "import csv", …
+  std::int64_t seed = -1;  ///< −1: no seed.
+  std::string config;      ///< The resolved configuration (TOML) that made it.
+};
+
+struct Packing {
+  std::vector<Disk> disks;
+  std::vector<Wall> walls;
+  std::vector<Contact> contacts;
+  Vector2 gravity{0, 0};        ///< Acceleration.
+  double named_force_unit = 0;  ///< Unit of force that the scene names; 0: the mean weight of a disk.
+  Origin origin;
+
+  int disk_count() const { return static_cast<int>(disks.size()); }
+  int wall_count() const { return static_cast<int>(walls.size()); }
+  int contact_count() const { return static_cast<int>(contacts.size()); }
+
+  /// The unit in which forces are computed and printed: the named one, else the mean weight |g| Σm/N ("mg" in
+  /// the paper). 1 for a packing without disks. Throws InputError if there is neither gravity nor a named
+  /// unit.
+  double force_unit() const;
+
+  /// Radius of the largest disk, the unit of length (1 for a packing without disks).
+  double max_radius() const;
+
+  /// External wrench on disk i: m g plus its load (force x, force y, torque).
+  Vector3 wrench(DiskId disk) const;
+
+  /// The simulated forces (R_1, T_1, …, R_M, T_M) [2], in the scene's own units; size 2M, NaN where unknown.
+  Eigen::VectorXd simulated_forces() const;
+
+  /// True if R and T of every contact are known.
+  bool has_simulated_forces() const;
+
+  const Disk& operator[](DiskId i) const { return disks[static_cast<std::size_t>(i.value())]; }
+  const Wall& operator[](WallId i) const { return walls[static_cast<std::size_t>(i.value())]; }
+  const Contact& operator[](ContactId i) const { return contacts[static_cast<std::size_t>(i.value())]; }
+};
+
+/// The direction from body b to the centre of disk a, from the positions alone [9]: x_a − x_b for two disks,
+/// the wall's normal for a wall; unit length. Throws InputError if two centres coincide.
+Vector2 geometric_normal(const Packing& packing, DiskId a, Body b);
+
+/// Distance of the surfaces of disk a and body b from the positions alone; negative where they overlap.
+double geometric_gap(const Packing& packing, DiskId a, Body b);
+
+}  // namespace indet

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "indet/packing/packing.h"
+
+namespace indet {
+
+/// The part of a packing that a defect is in; importers turn it into a file and a line.
+enum class PackingPart { kScene, kDisk, kWall, kContact };
+
+/// The first thing that is wrong with a packing.
+struct Defect {
+  PackingPart part = PackingPart::kScene;
+  int index = -1;      ///< Row of the part, from 0; −1 for the scene.
+  std::string reason;  ///< "mass must be positive, but is -1".
+};
+
+/// Looks for: NaN or inf; radius, mass or inertia ≤ 0; negative μ; an index out of range; a contact of a disk
+/// with itself or given twice; a normal that is not of unit length or disagrees with the positions; neither
+/// gravity nor a unit of force. (A contact of a wall with a wall cannot be expressed in a Packing; importers
+/// report it.) Returns nothing if the packing can be used.
+std::optional<Defect> find_defect(const Packing& packing);
+
+/// Throws InputError with the defect, prefixed by `source` (a file name), if there is one.
+void validate(const Packing& packing, const std::string& source);
+
+}  // namespace indet

@@ -1,0 +1,49 @@
+#include "indet/range/force_ranges.h"
+
+namespace indet {
+
+const char* to_string(PolytopeStatus status) {
+  switch (status) {
+    case PolytopeStatus::kBounded:
+      return "bounded";
+    case PolytopeStatus::kUnbounded:
+      return "unbounded";
+    case PolytopeStatus::kPoint:
+      return "point";
+    case PolytopeStatus::kEmpty:
+      return "empty";
+  }
+  return "?";
+}
+
+const char* to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kOptimal:
+      return "optimal";
+    case Outcome::kUnbounded:
+      return "unbounded";
+    case Outcome::kImprecise:
+      return "imprecise";
+    case Outcome::kFailed:
+      return "failed";
+    case Outcome::kNotRequested:
+      return "not requested";
+  }
+  return "?";
+}
+
+const char* to_string(Column column) {
+  switch (column) {
+    case kMinR:
+      return "R_min";
+    case kMaxR:
+      return "R_max";
+    case kMinT:
+      return "T_min";
+    case kMaxT:
+      return "T_max";
+  }
+  return "?";
+}
+
+}  // namespace indet

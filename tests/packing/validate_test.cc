@@ -1,0 +1,126 @@
+#include "indet/packing/validate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "indet/base/error.h"
+
+namespace indet {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Two disks side by side on a floor.
+Packing two_disks() {
+  Packing packing;
+  packing.gravity = {0, -1};
+  packing.walls = {Wall{.id = 0, .point = {0, 0}, .normal = {0, 1}, .name = "floor"}};
+  for (int i = 0; i < 2; ++i) {
+    packing.disks.push_back(Disk{.id = i, .position = {2.0 * i, 1}, .radius = 1, .mass = 1, .inertia = 0.5});
+    packing.contacts.push_back(
+        Contact{.a = DiskId(i), .b = Body::wall(WallId(0)), .normal = {0, 1}, .mu = 0.3});
+  }
+  packing.contacts.push_back(
+      Contact{.a = DiskId(1), .b = Body::disk(DiskId(0)), .normal = {1, 0}, .mu = 0.3});
+  return packing;
+}
+
+TEST(Validate, AcceptsASoundPacking) { EXPECT_FALSE(find_defect(two_disks()).has_value()); }
+
+struct BadPacking {
+  const char* name;
+  std::function<void(Packing&)> spoil;
+  PackingPart part;
+  int index;
+  const char* reason;
+};
+
+class ValidateBad : public ::testing::TestWithParam<BadPacking> {};
+
+TEST_P(ValidateBad, NamesPartRowAndReason) {
+  Packing packing = two_disks();
+  GetParam().spoil(packing);
+  const auto defect = find_defect(packing);
+  ASSERT_TRUE(defect.has_value());
+  EXPECT_EQ(defect->part, GetParam().part);
+  EXPECT_EQ(defect->index, GetParam().index);
+  EXPECT_THAT(defect->reason, HasSubstr(GetParam().reason));
+  EXPECT_THROW(validate(packing, "file"), InputError);
+}
+
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+const double kInf = std::numeric_limits<double>::infinity();
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ValidateBad,
+    ::testing::Values(
+        BadPacking{"NanPosition", [](Packing& p) { p.disks[1].position.x() = kNaN; }, PackingPart::kDisk, 1,
+                   "x must be a finite"},
+        BadPacking{"InfiniteMass", [](Packing& p) { p.disks[0].mass = kInf; }, PackingPart::kDisk, 0,
+                   "mass must be a finite"},
+        BadPacking{"ZeroRadius", [](Packing& p) { p.disks[1].radius = 0; }, PackingPart::kDisk, 1,
+                   "radius must be positive"},
+        BadPacking{"NegativeMass", [](Packing& p) { p.disks[1].mass = -1; }, PackingPart::kDisk, 1,
+                   "mass must be positive"},
+        BadPacking{"NegativeFriction", [](Packing& p) { p.contacts[2].mu = -0.1; }, PackingPart::kContact, 2,
+                   "mu must not be negative"},
+        BadPacking{"NanFriction", [](Packing& p) { p.contacts[2].mu = kNaN; }, PackingPart::kContact, 2,
+                   "mu must be a finite"},
+        BadPacking{"DiskOutOfRange", [](Packing& p) { p.contacts[0].a = DiskId(2); }, PackingPart::kContact,
+                   0, "body a is disk 2"},
+        BadPacking{"WallOutOfRange", [](Packing& p) { p.contacts[1].b = Body::wall(WallId(1)); },
+                   PackingPart::kContact, 1, "wall 1"},
+        BadPacking{"Itself", [](Packing& p) { p.contacts[2].b = Body::disk(DiskId(1)); },
+                   PackingPart::kContact, 2, "cannot touch itself"},
+        BadPacking{
+            "Twice",
+            [](Packing& p) {
+              p.contacts.push_back(Contact{.a = DiskId(0), .b = Body::disk(DiskId(1)), .normal = {-1, 0}});
+            },
+            PackingPart::kContact, 3, "also contact 2"},
+        BadPacking{"LongNormal",
+                   [](Packing& p) {
+                     p.contacts[2].normal = {2, 0};
+                   },
+                   PackingPart::kContact, 2, "length 2"},
+        BadPacking{"OppositeNormal",
+                   [](Packing& p) {
+                     p.contacts[2].normal = {-1, 0};
+                   },
+                   PackingPart::kContact, 2, "disagrees with the positions"},
+        BadPacking{"WallNormal",
+                   [](Packing& p) {
+                     p.walls[0].normal = {0, 0.5};
+                   },
+                   PackingPart::kWall, 0, "length 0.5"},
+        BadPacking{"NoForceUnit",
+                   [](Packing& p) {
+                     p.gravity = {0, 0};
+                   },
+                   PackingPart::kScene, -1, "unit of force"},
+        BadPacking{"InfiniteForce", [](Packing& p) { p.contacts[0].R = kInf; }, PackingPart::kContact, 0,
+                   "finite or unknown"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(Packing, ForceUnitIsTheMeanWeight) {
+  Packing packing = two_disks();
+  packing.disks[1].mass = 3;
+  packing.gravity = {0.6, -0.8};
+  EXPECT_DOUBLE_EQ(packing.force_unit(), 2);
+  packing.named_force_unit = 5;
+  EXPECT_DOUBLE_EQ(packing.force_unit(), 5);
+}
+
+TEST(Packing, GapIsNegativeWhereDisksOverlap) {
+  Packing packing = two_disks();
+  packing.disks[1].position = {1.5, 1.25};
+  EXPECT_NEAR(geometric_gap(packing, DiskId(1), Body::disk(DiskId(0))), std::hypot(1.5, 0.25) - 2, 1e-15);
+  EXPECT_NEAR(geometric_gap(packing, DiskId(1), Body::wall(WallId(0))), 0.25, 1e-15);
+}
+
+}  // namespace
+}  // namespace indet
