@@ -201,6 +201,7 @@ struct Hdf5File::State {
     const Id attribute =
         own(H5Acreate2(holder.get(), name.c_str(), file_type, space(shape).get(), H5P_DEFAULT, H5P_DEFAULT),
             place);
+    if (H5Aget_storage_size(attribute.get()) == 0) return;
     check(H5Awrite(attribute.get(), memory_type, values), place);
   }
 
@@ -250,6 +251,7 @@ struct Hdf5File::State {
 
   /// Throws unless what the header announces can come out of a file of this size.
   void check_storage(hid_t dataset, const Shape& shape, const std::string& object) const {
+    if (!temporary.empty()) return;  // our own data, part of them not in the file yet
     const Id type = own(H5Dget_type(dataset), object);
     const Id properties = own(H5Dget_create_plist(dataset), object);
     std::size_t bytes = H5Tget_size(type.get());
