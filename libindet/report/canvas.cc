@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "indet/base/error.h"
-#include "indet/report/whole_file.h"
+#include "indet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -114,6 +114,7 @@ void Canvas::line(const Vector2& from, const Vector2& to, double thickness, cons
 
 void Canvas::polygon(const std::vector<Vector2>& corners, const Colour& fill) {
   cairo_t* cairo = state_->cairo.get();
+  if (corners.empty()) return;
   cairo_new_path(cairo);
   for (const Vector2& corner : corners) cairo_line_to(cairo, corner.x(), corner.y());
   cairo_close_path(cairo);

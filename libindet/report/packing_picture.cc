@@ -148,13 +148,11 @@ class Sheet {
     const std::vector<Vector2> view = {low_, {high_.x(), low_.y()}, high_, {low_.x(), high_.y()}};
     std::vector<Vector2> domain = view;
     for (const Wall& wall : packing_.walls) domain = clip(domain, wall);
-    const auto on_page = [&](std::vector<Vector2> corners) {
-      for (Vector2& corner : corners) corner = place(corner);
-      return corners;
-    };
-    if (!packing_.walls.empty()) {
-      canvas_->polygon(on_page(view), kWallFill);
-      canvas_->polygon(on_page(domain), {1, 1, 1});
+    for (Wall wall : packing_.walls) {
+      wall.normal = -wall.normal;
+      std::vector<Vector2> behind = clip(view, wall);
+      for (Vector2& corner : behind) corner = place(corner);
+      canvas_->polygon(behind, kWallFill);
     }
     for (const Disk& disk : packing_.disks) {
       canvas_->disk(place(disk.position), disk.radius * scale_, kDiskFill, kDiskOutline,

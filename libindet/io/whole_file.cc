@@ -1,4 +1,4 @@
-#include "indet/report/whole_file.h"
+#include "indet/io/whole_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
