@@ -196,6 +196,12 @@ std::vector<Contact> read_contacts(const Table& table, const Packing& packing, c
   return contacts;
 }
 
+/// Printed normals are rounded; within the tolerance that validation allows, the length is 1 by definition. A
+/// normal of full precision keeps its bits.
+void set_unit_length(Vector2& normal) {
+  if (std::abs(normal.squaredNorm() - 1) > 4 * std::numeric_limits<double>::epsilon()) normal.normalize();
+}
+
 /// Throws the first defect of `packing` with the file and line that it comes from.
 void fail_at_defect(const Packing& packing, PackingPart part, const Table& table) {
   const auto defect = find_defect(packing);
@@ -231,9 +237,8 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   packing.contacts = read_contacts(contacts, packing, disk_ids, wall_ids, scene);
   fail_at_defect(packing, PackingPart::kContact, contacts);
   validate(packing, scene.source);
-  // Printed normals are rounded; within the tolerance that validation allows, the length is 1 by definition.
-  for (Wall& wall : packing.walls) wall.normal.normalize();
-  for (Contact& contact : packing.contacts) contact.normal.normalize();
+  for (Wall& wall : packing.walls) set_unit_length(wall.normal);
+  for (Contact& contact : packing.contacts) set_unit_length(contact.normal);
   warn_of_large_gaps(imported);
   return imported;
 }
