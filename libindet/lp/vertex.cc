@@ -24,7 +24,8 @@ Eigen::VectorXd Vertex::edge(int k) const { return active.solve(Eigen::VectorXd:
 
 Eigen::VectorXd Vertex::multipliers(const Eigen::Ref<const Eigen::VectorXd>& g) const {
   if (z.size() == 0) return {};
-  return -active.transpose().solve(g);
+  const Eigen::VectorXd costs = active.transpose().solve(g);
+  return -costs;
 }
 
 Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
