@@ -122,7 +122,7 @@ class Samples(unittest.TestCase):
         for factor, name in [(1.5, "delta_R"), (2.5, "delta_T"), (3.5, "d_R"), (4.5, "d_T"), (0.125, "R_star"),
                              (-0.125, "T_star")]:
             self.equal(f"ranges/{name}", factor * i, "<f8")
-        self.equal("ranges/ray", np.arange(10.0), "<f8")
+        self.equal("extremal/rays", np.arange(10.0)[None, :], "<f8")
 
     def test_extremal(self):
         k = np.arange(7.0)[:, None]
