@@ -34,18 +34,21 @@ std::map<std::string, std::string> parse_columns(const std::vector<std::string>&
   for (const std::string& item : items) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) {
-      throw CLI::ValidationError("--columns", fmt::format("\"{}\" must have the form NAME=COLUMN", item));
+      throw UsageError(fmt::format("--columns: \"{}\" must have the form NAME=COLUMN", item));
     }
     if (!columns.emplace(item.substr(0, equals), item.substr(equals + 1)).second) {
-      throw CLI::ValidationError("--columns", item.substr(0, equals) + " is given twice");
+      throw UsageError(fmt::format("--columns: {} is given twice", item.substr(0, equals)));
     }
   }
   return columns;
 }
 
-/// Options that do not fit together. Throws CLI::ValidationError.
+/// Options that are missing or do not fit together. (Not the parser's work: they may come from --config,
+/// after the first pass over the command line.)
 void check_usage(ImportOptions& options, const CLI::App& command) {
-  const auto fail = [](const std::string& reason) { throw CLI::ValidationError("import", reason); };
+  const auto fail = [](const std::string& reason) { throw UsageError(reason); };
+  if (options.format.empty()) fail("--format is required: csv or lammps");
+  if (options.output.empty()) fail("-o is required: the HDF5 file to write");
   if (options.format == "csv") {
     for (const char* name : {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--columns"}) {
       if (command.count(name) == 0) continue;
@@ -114,7 +117,8 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
   fmt::print("\n");
 }
 
-int run(const ImportOptions& options, const Context& context) {
+int run(ImportOptions& options, const CLI::App& command, const Context& context) {
+  check_usage(options, command);
   ImportedPacking imported =
       options.format == "csv" ? read_csv_scene(options.folder) : read_lammps(options.lammps);
   imported.packing.origin.config = context.resolved_config;
@@ -143,8 +147,7 @@ int run(const ImportOptions& options, const Context& context) {
 Command add_import(CLI::App& root) {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* command = root.add_subcommand("import", "Read a packing that another program made");
-  command->add_option("--format", options->format, "Form of the input")
-      ->required()
+  command->add_option("--format", options->format, "Form of the input (required)")
       ->check(CLI::IsMember({"csv", "lammps"}));
   command->add_option("folder", options->folder,
                       "csv: folder with disks.csv, contacts.csv, walls.csv, scene.toml");
@@ -167,9 +170,8 @@ Command add_import(CLI::App& root) {
                    "Largest residual of force or torque in mg (default: 1e-6, more for files with few "
                    "digits)")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("-o,--output", options->output, "HDF5 file to write")->required();
-  command->final_callback([options, command] { check_usage(*options, *command); });
-  return {command, [options](const Context& context) { return run(*options, context); }};
+  command->add_option("-o,--output", options->output, "HDF5 file to write (required)");
+  return {command, [options, command](const Context& context) { return run(*options, *command, context); }};
 }
 
 }  // namespace indet::app
