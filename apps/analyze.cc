@@ -205,12 +205,14 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     const Statistics s = statistics(values);
     fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
   };
-  fmt::print("\nindeterminacy (mg)\n");
-  line("δR", ranges.delta_R);
-  line("δT", ranges.delta_T);
-  line("dR", ranges.d_R);
-  line("dT", ranges.d_T);
-  if (ranges.delta_R.size() > 0) print_extremes(packing, ranges);
+  if (packing.contact_count() > 0) {
+    fmt::print("\nindeterminacy (mg)\n");
+    line("δR", ranges.delta_R);
+    line("δT", ranges.delta_T);
+    line("dR", ranges.d_R);
+    line("dT", ranges.d_T);
+    print_extremes(packing, ranges);
+  }
   double total = 0;
   for (const auto& [stage, seconds] : ranges.seconds) total += seconds;
   fmt::print("\nwritten to {} ({:.2f} s)\n", output, total);

@@ -149,14 +149,13 @@ void name_environment_variables(CLI::App& command) {
 }
 
 void parse_with_configuration(CLI::App& root, const std::vector<std::string>& arguments,
-                              const std::string& config_file) {
+                              const std::string& file) {
   const auto parse = [&root](std::vector<std::string> list) {
     std::reverse(list.begin(), list.end());  // CLI11 takes them last first
     root.parse(list);
   };
   parse(arguments);
-  if (config_file.empty()) return;
-  const std::string file = config_file;  // the second pass sets the original again
+  if (file.empty()) return;
   const toml::table table = read_toml(file);
   Settings settings;
   add_settings(table, root, file, true, settings);

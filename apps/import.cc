@@ -101,10 +101,12 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
              counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"),
              packing.gravity.x(), packing.gravity.y(), packing.force_unit());
   if (report.forces_known) {
-    fmt::print("force residual      {:.2e} mg (disk {})\n", report.force_residual,
-               packing[report.worst_force].id);
-    fmt::print("torque residual     {:.2e} mg r (disk {})\n", report.torque_residual,
-               packing[report.worst_torque].id);
+    // Where nothing is left over there is no worst disk.
+    const auto name = [&](DiskId disk) {
+      return disk.value() < 0 ? "" : fmt::format(" (disk {})", packing[disk].id);
+    };
+    fmt::print("force residual      {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
+    fmt::print("torque residual     {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
     fmt::print("                    accepted up to {:.0e} mg\n", tolerance);
     fmt::print("Coulomb violations  {}", report.coulomb_violations);
     if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);

@@ -98,6 +98,20 @@ class NoAdmissibleState(program.ProgramTest):
         self.run_indet("analyze", self.packing(program.pyramid(mu=0.27)))
 
 
+class Nothing(program.ProgramTest):
+    """A scene with nothing to balance is a packing like any other."""
+
+    def test_a_disk_that_nothing_touches_or_pulls(self):
+        self.write("p", {"disks.csv": "id,x,y,radius,mass\n7,0,0,1,1\n", "contacts.csv": "a,b\n",
+                         "scene.toml": "gravity = [0, 0]\nforce_unit = 1\n"})
+        done = self.run_indet("import", "--format", "csv", "p", "-o", "p.h5")
+        self.assertRegex(done.stdout, r"(?m)^force residual      0.00e\+00 mg$")
+        self.assertIn("loose disks         1, the first is disk 7", done.stdout)
+        done = self.run_indet("analyze", "p.h5")
+        self.assertNotIn("nan", done.stdout)
+        self.run_indet("verify", "p.ranges.h5")
+
+
 class Interrupted(program.ProgramTest):
     def test_a_signal_stops_the_analysis_and_leaves_no_file(self):
         self.run_indet("import", "--format", "lammps", "--atoms", f"{DATA}/atoms.dump", "--contacts",
