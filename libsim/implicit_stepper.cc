@@ -53,9 +53,11 @@ void ImplicitStepper::step() {
   }
   bodies_[n] = SolverBody{};
   apply_impulses(solver_, bodies_);
+  double change = 0;
+  for (const ContactState& contact : previous_) change = std::max(change, contact.change);
+  const double tolerance = std::max(options_.tolerance * force_unit_, options_.loosening * change);
   const SweepReport sweeps =
-      solve(solver_, bodies_,
-            {.max_sweeps = options_.max_sweeps, .tolerance = options_.tolerance * force_unit_ * dt});
+      solve(solver_, bodies_, {.max_sweeps = options_.max_sweeps, .tolerance = tolerance * dt});
   ++report_.steps;
   report_.capped_steps += sweeps.converged ? 0 : 1;
   report_.sweeps += sweeps.sweeps;
@@ -163,6 +165,7 @@ void ImplicitStepper::carry_over() {
     solver_[i].p_n = old->R * dt;
     solver_[i].p_t = old->T * dt;
     contacts_[i].spring = old->spring;
+    contacts_[i].R = old->R;
   }
 }
 
@@ -174,6 +177,7 @@ void ImplicitStepper::finish() {
     const SolverContact& solved = solver_[i];
     if (!(solved.p_n > 0)) continue;
     ContactState& contact = contacts_[i];
+    contact.change = std::abs(solved.p_n / dt - contact.R);
     contact.R = solved.p_n / dt;
     contact.T = solved.p_t / dt;
     contact.sliding = contact.mu > 0 && std::abs(solved.p_t) >= contact.mu * solved.p_n;

@@ -42,6 +42,9 @@ double step_of(const World& world, const SimulationOptions& options, const Units
   return is_implicit(md) ? kImplicitStep : explicit_step(world, md, units);
 }
 
+/// ImplicitOptions::loosening of molecular dynamics.
+constexpr double kLoosening = 1e-3;
+
 using Reason = std::optional<std::string>;
 
 Reason rigid_defect(const ContactDynamicsOptions& cd) {
@@ -112,10 +115,13 @@ std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<Cont
   const MolecularDynamicsOptions& md = options.molecular_dynamics;
   const SpringLaw law = law_of(md, units);
   if (!is_implicit(md)) return std::make_unique<ExplicitStepper>(world, contacts, law, dt);
-  return std::make_unique<ImplicitStepper>(
-      world, contacts,
-      ImplicitOptions{
-          .dt = dt, .springs = law, .rigid = {}, .max_sweeps = md.max_sweeps, .tolerance = md.tolerance});
+  return std::make_unique<ImplicitStepper>(world, contacts,
+                                           ImplicitOptions{.dt = dt,
+                                                           .springs = law,
+                                                           .rigid = {},
+                                                           .max_sweeps = md.max_sweeps,
+                                                           .tolerance = md.tolerance,
+                                                           .loosening = kLoosening});
 }
 
 Simulation simulate(const World& start, const std::vector<ContactState>& contacts,
@@ -138,7 +144,8 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
   result.raw = packing_of(stepper->world(), stepper->forces());
   PolishOptions polish_options = options.polish;
   // Elastic forces of a sliding contact are off the limit by what damping still contributes.
-  if (!rigid) polish_options.sliding = std::max(polish_options.sliding, 10 * options.molecular_dynamics.residual);
+  if (!rigid)
+    polish_options.sliding = std::max(polish_options.sliding, 10 * options.molecular_dynamics.residual);
   result.polished = polish(result.raw, result.raw.simulated_forces(), polish_options);
   result.packing = result.raw;
   const double unit = result.raw.force_unit();

@@ -36,8 +36,8 @@ struct MolecularDynamicsOptions {
   double dt = 0;            ///< 0: half the stability bound (explicit), 1e-3 (implicit).
   double tolerance = 1e-7;  ///< Of the implicit damping: largest change of a contact force in the last sweep.
   int max_sweeps = 1000;
-  /// A state is static if its elastic forces balance to this. Rounding of the positions alone leaves about 1e-7
-  /// where k = 1.2e6.
+  /// A state is static if its elastic forces balance to this. Rounding of the positions alone leaves about
+  /// 1e-7 where k = 1.2e6.
   double residual = 1e-6;
 };
 

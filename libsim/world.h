@@ -59,6 +59,8 @@ struct ContactState {
   double gap = 0;
   double mu = 0;
   double R = 0, T = 0;
+  /// Change of R in the last step (implicit steps loosen their tolerance by it).
+  double change = 0;
   /// Stretch ξ of the tangential spring (molecular dynamics); 0 in contact dynamics.
   double spring = 0;
   /// The last step held T at the Coulomb limit ±μR.
