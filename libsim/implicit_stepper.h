@@ -68,7 +68,7 @@ class ImplicitStepper : public Stepper {
   NeighbourList neighbours_;
   double force_unit_ = 1;
   double reach_ = 0;
-  double near_gap_ = 0;     ///< Gaps up to this count as possible contacts even at rest.
+  double near_gap_ = 0;  ///< Gaps up to this count as possible contacts even at rest.
 
   std::vector<SolverBody> bodies_;
   std::vector<double> inverse_mass_, inverse_spin_;
