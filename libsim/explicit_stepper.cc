@@ -69,7 +69,11 @@ void ExplicitStepper::place_springs(const std::vector<ContactState>& contacts) {
 }
 
 void ExplicitStepper::refresh_neighbours() {
-  store();
+  // Positions only: the sums behind the angles must not depend on when lists are made.
+  for (int i = 0; i < world_.size(); ++i) {
+    world_.x[i] = bodies_[i].x;
+    world_.y[i] = bodies_[i].y;
+  }
   const std::vector<ContactState> touching = state();
   if (neighbours_.update(world_, 0)) {
     place_springs(touching);

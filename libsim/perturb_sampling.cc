@@ -1,6 +1,7 @@
 #include "indet/sim/perturb_sampling.h"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -97,7 +98,7 @@ PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions
   // Sample i belongs to chain i mod chains. Chains advance together, one round of samples at a time.
   const int chains = options.chains;
   std::vector<Eigen::VectorXd> ends(static_cast<std::size_t>(chains), packing.simulated_forces());
-  tbb::task_arena arena(std::max(1, options.threads));
+  tbb::task_arena arena(std::clamp(options.threads, 1, tbb::info::default_concurrency()));
   for (int begin = 0; begin < options.samples; begin += kRounds * chains) {
     const int end = std::min(options.samples, begin + kRounds * chains);
     arena.execute([&] {

@@ -31,8 +31,8 @@ struct PerturbOptions {
   int chains = 1;  ///< In 1 … samples. Chains run in parallel.
   std::uint64_t seed = 0;
   int threads = 1;  ///< Results do not depend on it.
-  StaticOptions solver;
-  PolishOptions polish;
+  StaticOptions solver = {};
+  PolishOptions polish = {};
   double accept_residual =
       1e-9;  ///< A polished solution is accepted if it balances, and lies in the cones, to this (mg).
 

@@ -245,6 +245,10 @@ Polished polish(const Packing& packing, const Eigen::VectorXd& raw, const Polish
   }
   result.rounds = run.rounds;
   result.forces = unit * run.forces;
+  for (int i = 0; i < contacts; ++i) {
+    // Rounding of the product must not push a sliding contact out of its cone.
+    project(run.status[i], packing[ContactId(i)].mu, result.forces[2 * i], result.forces[2 * i + 1]);
+  }
   result.residual = balance_residual(packing, result.forces);
   result.cone_violation = cone_violation(packing, result.forces);
   result.distance = (run.forces - scaled).norm();

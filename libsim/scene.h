@@ -23,7 +23,7 @@ struct Scene {
   double radius_min = 0.7;
   double radius_max = 1.0;
   double density = 1.0;  ///< Mass per area; the moment of inertia is m r²/2.
-  Friction friction;
+  Friction friction = {};
   Vector2 gravity{0, -1};
   double force_unit = 0;  ///< Needed without gravity; 0: the mean weight.
 
@@ -31,8 +31,8 @@ struct Scene {
   double width = 0;  ///< Lx; 0: 2.2 radius_max a column.
   double height =
       0;  ///< Ly; 0: 2 radius_max a row. Only the grid and the time limit know it: the top is open.
-  double funnel_angle = 30;  ///< Slope of the funnel's sides, degrees.
-  std::vector<Wall> walls;   ///< More walls, or all of them with `none`.
+  double funnel_angle = 30;      ///< Slope of the funnel's sides, degrees.
+  std::vector<Wall> walls = {};  ///< More walls, or all of them with `none`.
 
   int columns = 0;    ///< Of the grid; 0: such that width/height stays 11/38, the shape for 95 disks.
   double jitter = 1;  ///< Fraction of the room in its cell that a disk is moved in; 0: an aligned grid.

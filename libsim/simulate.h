@@ -54,7 +54,7 @@ struct SimulationOptions {
   double kinetic_energy = 1e-12;  ///< Per disk, mg r_max: below it a state may be static.
   int calm_steps = 50;
   double time_limit = 0;  ///< > 0.
-  PolishOptions polish;
+  PolishOptions polish = {};
 
   /// The reason why these options cannot be used for a world, if there is one (for example an unstable dt).
   std::optional<std::string> defect(const World& world) const;
