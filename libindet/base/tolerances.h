@@ -18,7 +18,7 @@ inline constexpr double kNormalDirection = 1e-4;
 /// A singular value of the dimensionless contact matrix below kRankReject · σ_max counts as zero; one between
 /// the two bounds makes the rank ambiguous, and every result of that packing `imprecise`. Rounding alone
 /// gives about 1e-15.
-inline constexpr double kRankReject = 2e-14;
+inline constexpr double kRankReject = 1e-13;
 inline constexpr double kRankAccept = 1e-11;
 
 /// Largest residual, relative to max(1, ‖F‖∞) in mg, with which a recomputed vertex counts as certified:

@@ -57,6 +57,7 @@ struct ContactMatrix {
   std::vector<Edge> edges;             ///< unknowns (there are as many edges as unknowns)
   Eigen::SparseMatrix<double>
       to_edges;  ///< unknowns × unknowns: x = to_edges · u, block diagonal; F ∈ K ⇔ x ≥ 0
+  Eigen::SparseMatrix<double> edge_matrix;  ///< equations × unknowns: edge_matrix · x = −wrench
   Eigen::SparseMatrix<double> edge_forces;  ///< 2M × unknowns: F = edge_forces · x
   double force_unit = 1;
 

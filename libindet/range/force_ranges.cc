@@ -2,20 +2,6 @@
 
 namespace indet {
 
-const char* to_string(PolytopeStatus status) {
-  switch (status) {
-    case PolytopeStatus::kBounded:
-      return "bounded";
-    case PolytopeStatus::kUnbounded:
-      return "unbounded";
-    case PolytopeStatus::kPoint:
-      return "point";
-    case PolytopeStatus::kEmpty:
-      return "empty";
-  }
-  return "?";
-}
-
 const char* to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::kOptimal:

@@ -9,16 +9,9 @@
 #include <vector>
 
 #include "indet/packing/packing.h"
+#include "indet/polytope/force_polytope.h"
 
 namespace indet {
-
-/// What the polytope of admissible contact states F [19] of a packing is.
-enum class PolytopeStatus : std::uint8_t {
-  kBounded,    ///< More than one state, all forces limited.
-  kUnbounded,  ///< Some force can grow without limit; `ray` shows how.
-  kPoint,      ///< One state: no indeterminacy.
-  kEmpty       ///< No state: the packing cannot stand; `motion` shows which disks move.
-};
 
 /// What became of one objective.
 enum class Outcome : std::uint8_t {
@@ -32,7 +25,6 @@ enum class Outcome : std::uint8_t {
 /// The four objectives of a contact, in the order of the columns of every [M,4] table.
 enum Column : std::uint8_t { kMinR = 0, kMaxR = 1, kMinT = 2, kMaxT = 3 };
 
-const char* to_string(PolytopeStatus status);
 const char* to_string(Outcome outcome);
 const char* to_string(Column column);  ///< "R_min", "R_max", "T_min", "T_max".
 

@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "indet/base/error.h"
+#include "indet/io/csv_writer.h"
+#include "indet/io/ranges_file.h"
+#include "indet/io/table.h"
+#include "indet/report/packing_picture.h"
+
+namespace indet::app {
+namespace {
+
+struct ExportOptions {
+  std::string file;
+  std::string format;
+  std::string state = "sim";
+  std::string style = "forces";
+  std::string output;
+};
+
+/// A contact state and how a caption calls it.
+struct ChosenState {
+  Eigen::VectorXd forces;
+  std::string description;
+};
+
+const ForceRanges& need_ranges(const std::optional<ForceRanges>& ranges, const std::string& file,
+                               const std::string& what) {
+  if (ranges) return *ranges;
+  throw InputError(fmt::format("{}: {} needs force ranges; compute them with indet analyze", file, what));
+}
+
+/// `state:K`, `R_max:17` and the like: the text before and the number after the colon.
+std::pair<std::string, std::int64_t> split_state(const std::string& state) {
+  const std::size_t colon = state.find(':');
+  std::int64_t number = -1;
+  if (colon == std::string::npos || !parse_number(std::string_view(state).substr(colon + 1), &number) ||
+      number < 0) {
+    throw InputError(fmt::format(
+        "--state {}: must be sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C",
+        state));
+  }
+  return {state.substr(0, colon), number};
+}
+
+ChosenState choose_state(const ExportOptions& options, const Packing& packing,
+                         const std::optional<ForceRanges>& ranges) {
+  if (options.state == "sim") {
+    return {packing.simulated_forces(),
+            packing.has_simulated_forces() ? "simulated state" : "forces unknown"};
+  }
+  const ForceRanges& r = need_ranges(ranges, options.file, "--state " + options.state);
+  const auto row = [&](std::int64_t k, const std::string& description) -> ChosenState {
+    if (k < 0 || k >= r.states.rows()) {
+      throw InputError(fmt::format("{}: there is no extremal state for --state {} ({} are stored)",
+                                   options.file, options.state, r.states.rows()));
+    }
+    return {r.states.row(k).transpose(), description};
+  };
+  if (options.state == "max-norm") return row(r.largest_norm, "extremal state of largest norm");
+  const auto [kind, number] = split_state(options.state);
+  if (kind == "state") return row(number, fmt::format("extremal state {}", number));
+  for (const Column column : {kMinR, kMaxR, kMinT, kMaxT}) {
+    if (kind != to_string(column)) continue;
+    if (number >= packing.contact_count()) {
+      throw InputError(
+          fmt::format("--state {}: the contacts are 0 … {}", options.state, packing.contact_count() - 1));
+    }
+    return row(r.vertex(number, column), fmt::format("extremal state of {} of contact {}", kind, number));
+  }
+  throw InputError(fmt::format("--state {}: {} is unknown", options.state, kind));
+}
+
+std::string caption(const ExportOptions& options, const Packing& packing, const std::string& description) {
+  std::string text =
+      fmt::format("{}: {}, N = {}, M = {}", std::filesystem::path(options.file).filename().string(),
+                  packing.origin.protocol, packing.disk_count(), packing.contact_count());
+  if (packing.origin.seed >= 0) text += fmt::format(", seed {}", packing.origin.seed);
+  return text + "; " + description;
+}
+
+/// The format: as asked for, else that of the extension of the output, else a picture.
+std::string resolve_format(const ExportOptions& options) {
+  const std::string extension = std::filesystem::path(options.output).extension().string();
+  if (!options.format.empty()) {
+    if (options.format != "csv" && !extension.empty() && extension != "." + options.format) {
+      throw InputError(fmt::format("{}: must end with .{}", options.output, options.format));
+    }
+    return options.format;
+  }
+  return extension.empty() ? "svg" : extension.substr(1);
+}
+
+int run(ExportOptions options, const Context& context) {
+  const Packing packing = read_packing(options.file);
+  std::optional<ForceRanges> ranges;
+  if (file_has_ranges(options.file)) ranges = read_ranges(options.file);
+  const std::string format = resolve_format(options);
+  if (options.output.empty()) {
+    options.output = std::filesystem::path(options.file).stem().string() + "." + format;
+  }
+  const ChosenState state = choose_state(options, packing, ranges);
+  const std::filesystem::path output = options.output;
+  if (format == "csv") {
+    if (options.style != "forces") throw InputError("--style is for pictures; a table has all columns");
+    if (output.extension() == ".csv") {
+      write_contact_table(output, packing, state.forces, ranges ? &*ranges : nullptr);
+    } else {
+      write_csv_scene(output, packing, state.forces);
+    }
+  } else if (format != "svg" && format != "pdf" && format != "png") {
+    throw InputError(fmt::format("{}: the formats are csv, svg, pdf, png", options.output));
+  } else if (options.style == "delta-R") {
+    const ForceRanges& r = need_ranges(ranges, options.file, "--style delta-R");
+    draw_delta_R(output, packing, r.delta_R,
+                 caption(options, packing, "range of the normal force of each contact"));
+  } else {
+    draw_forces(output, packing, state.forces, caption(options, packing, state.description));
+  }
+  if (context.json) {
+    std::cout << nlohmann::json{{"output", options.output}, {"format", format}, {"state", state.description}}
+                     .dump(2)
+              << '\n';
+  } else {
+    fmt::print("written to {}\n", options.output);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command add_export(CLI::App& root) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = root.add_subcommand("export", "Draw a packing, or write it as tables");
+  command->add_option("file", options->file, "HDF5 file")->required();
+  command
+      ->add_option("--format", options->format,
+                   "Form of the output (default: by the extension of -o, else svg)")
+      ->check(CLI::IsMember({"csv", "svg", "pdf", "png"}));
+  command
+      ->add_option(
+          "--state", options->state,
+          "Contact state: sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C")
+      ->capture_default_str();
+  command->add_option("--style", options->style, "Picture: forces of the state, or delta-R by colour")
+      ->check(CLI::IsMember({"forces", "delta-R"}))
+      ->capture_default_str();
+  command->add_option(
+      "-o,--output", options->output,
+      "File to write (default: the name of FILE); for csv: NAME.csv is one table of contacts, a "
+      "folder is a scene that import reads");
+  return {command, [options](const Context& context) { return run(*options, context); }};
+}
+
+}  // namespace indet::app

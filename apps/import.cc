@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "indet/base/error.h"
+#include "indet/io/balance.h"
+#include "indet/io/csv_reader.h"
+#include "indet/io/lammps_reader.h"
+#include "indet/io/packing_file.h"
+
+namespace indet::app {
+namespace {
+
+struct ImportOptions {
+  std::string format;
+  std::string folder;
+  LammpsOptions lammps;
+  std::vector<double> gravity = {0, -1};
+  std::vector<std::string> columns;
+  std::optional<double> friction;
+  std::optional<double> balance_tolerance;
+  std::string output;
+};
+
+/// "key=name" items as a map.
+std::map<std::string, std::string> parse_columns(const std::vector<std::string>& items) {
+  std::map<std::string, std::string> columns;
+  for (const std::string& item : items) {
+    const std::size_t equals = item.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) {
+      throw InputError(fmt::format("--columns: \"{}\" must have the form NAME=COLUMN", item));
+    }
+    if (!columns.emplace(item.substr(0, equals), item.substr(equals + 1)).second) {
+      throw InputError(fmt::format("--columns: {} is given twice", item.substr(0, equals)));
+    }
+  }
+  return columns;
+}
+
+ImportedPacking read(ImportOptions& options, const CLI::App& command) {
+  if (options.format == "csv") {
+    for (const char* name : {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--columns"}) {
+      if (command.count(name) > 0) {
+        throw InputError(
+            fmt::format("{} belongs to --format lammps; a CSV scene says it in its files", name));
+      }
+    }
+    if (options.folder.empty()) throw InputError("--format csv needs the folder of the scene");
+    return read_csv_scene(options.folder);
+  }
+  if (!options.folder.empty()) {
+    throw InputError(fmt::format("--format lammps reads --atoms and --contacts, not {}", options.folder));
+  }
+  if (options.lammps.atoms.empty() || options.lammps.contacts.empty()) {
+    throw InputError("--format lammps needs two dumps: --atoms FILE --contacts FILE");
+  }
+  if (!options.friction) {
+    throw InputError("friction is not in a LAMMPS dump: give the coefficient with --friction MU");
+  }
+  options.lammps.friction = *options.friction;
+  options.lammps.gravity = {options.gravity[0], options.gravity[1]};
+  options.lammps.columns = parse_columns(options.columns);
+  return read_lammps(options.lammps);
+}
+
+nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& report, double tolerance,
+                       const std::string& output) {
+  const Packing& packing = imported.packing;
+  nlohmann::json json = {{"output", output},
+                         {"disks", packing.disk_count()},
+                         {"walls", packing.wall_count()},
+                         {"contacts", packing.contact_count()},
+                         {"gravity", {packing.gravity.x(), packing.gravity.y()}},
+                         {"force_unit", packing.force_unit()},
+                         {"forces_known", report.forces_known},
+                         {"duplicates", report.duplicates},
+                         {"loose_disks", report.loose_disks},
+                         {"balance_tolerance", tolerance},
+                         {"warnings", imported.warnings}};
+  if (report.forces_known) {
+    json["force_residual"] = report.force_residual;
+    json["torque_residual"] = report.torque_residual;
+    json["coulomb_violations"] = report.coulomb_violations;
+    json["worst_violation"] = report.worst_violation;
+    json["sliding"] = report.sliding;
+    json["non_transmitting"] = report.non_transmitting;
+  }
+  return json;
+}
+
+void print_report(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
+  const Packing& packing = imported.packing;
+  fmt::print("{} disks, {} walls, {} contacts, gravity ({:g}, {:g}), mg = {:.6g}\n", packing.disk_count(),
+             packing.wall_count(), packing.contact_count(), packing.gravity.x(), packing.gravity.y(),
+             packing.force_unit());
+  if (report.forces_known) {
+    fmt::print("force residual      {:.2e} mg (disk {})\n", report.force_residual,
+               packing[report.worst_force].id);
+    fmt::print("torque residual     {:.2e} mg r (disk {})\n", report.torque_residual,
+               packing[report.worst_torque].id);
+    fmt::print("                    accepted up to {:.0e} mg\n", tolerance);
+    fmt::print("Coulomb violations  {}", report.coulomb_violations);
+    if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);
+    fmt::print("\nsliding contacts    {} (non-transmitting: {})\n", report.sliding, report.non_transmitting);
+  } else {
+    fmt::print("the forces are unknown, so their balance was not checked\n");
+  }
+  fmt::print("duplicates          {}\n", report.duplicates);
+  fmt::print("loose disks         {}", report.loose_disks);
+  if (report.loose_disks > 0) fmt::print(", the first is disk {}", packing[report.first_loose].id);
+  fmt::print("\n");
+}
+
+int run(ImportOptions& options, const CLI::App& command, const Context& context) {
+  ImportedPacking imported = read(options, command);
+  imported.packing.origin.config = context.resolved_config;
+  const BalanceReport report = report_balance(imported);
+  const double tolerance = options.balance_tolerance.value_or(default_balance_tolerance(imported));
+  for (const std::string& warning : imported.warnings) context.warn(warning);
+  if (report.coulomb_violations > 0) {
+    context.warn(
+        fmt::format("{} contacts violate the Coulomb conditions, the worst by {:.2e} mg; is the "
+                    "friction that of the simulation?",
+                    report.coulomb_violations, report.worst_violation));
+  }
+  require_balance(imported, report, tolerance);
+  write_packing(options.output, imported.packing, {context.arguments, context.resolved_config, {}, {}});
+  if (context.json) {
+    std::cout << to_json(imported, report, tolerance, options.output).dump(2) << '\n';
+  } else {
+    print_report(imported, report, tolerance);
+    fmt::print("written to {}\n", options.output);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command add_import(CLI::App& root) {
+  const auto options = std::make_shared<ImportOptions>();
+  CLI::App* command = root.add_subcommand("import", "Read a packing that another program made");
+  command->add_option("--format", options->format, "Form of the input")
+      ->required()
+      ->check(CLI::IsMember({"csv", "lammps"}));
+  command->add_option("folder", options->folder,
+                      "csv: folder with disks.csv, contacts.csv, walls.csv, scene.toml");
+  command->add_option("--atoms", options->lammps.atoms, "lammps: dump custom (per atom)");
+  command->add_option("--contacts", options->lammps.contacts, "lammps: dump local (per contact)");
+  command->add_option("--timestep", options->lammps.timestep, "lammps: frame to read (default: the last)");
+  command->add_option("--friction", options->friction, "lammps: friction coefficient of all contacts")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--gravity", options->gravity, "lammps: acceleration x,y")
+      ->delimiter(',')
+      ->expected(2)
+      ->capture_default_str();
+  command
+      ->add_option("--columns", options->columns,
+                   "lammps: other names of columns, NAME=COLUMN,… (id, x, y, radius, mass, vx, vy, omegaz, "
+                   "atom1, atom2, fx, fy, p1, p2, wall:NAME)")
+      ->delimiter(',');
+  command
+      ->add_option("--balance-tol", options->balance_tolerance,
+                   "Largest residual of force or torque in mg (default: 1e-6, more for files with few "
+                   "digits)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("-o,--output", options->output, "HDF5 file to write")->required();
+  return {command, [options, command](const Context& context) { return run(*options, *command, context); }};
+}
+
+}  // namespace indet::app

@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "indet/io/balance.h"
+#include "indet/io/packing_file.h"
+#include "indet/io/ranges_file.h"
+
+namespace indet::app {
+namespace {
+
+/// Everything that is shown of a file.
+struct FileContents {
+  Packing packing;
+  BalanceReport balance;
+  std::optional<ForceRanges> ranges;
+  Digests digests;
+  std::map<std::string, std::string> provenance;
+};
+
+FileContents read(const std::string& path) {
+  FileContents contents;
+  contents.packing = read_packing(path);
+  ImportedPacking for_balance;
+  for_balance.packing = contents.packing;
+  contents.balance = report_balance(for_balance);
+  if (file_has_ranges(path)) contents.ranges = read_ranges(path);
+  contents.digests = compute_digests(path);
+  const Hdf5File file = open_indet_file(path);
+  for (const char* name : {"version", "git", "compiler", "host", "created"}) {
+    contents.provenance[name] = file.string_attribute("/provenance", name);
+  }
+  return contents;
+}
+
+struct Extremes {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  double sum = 0;
+  int count = 0;  ///< Of finite values.
+
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+    sum += value;
+    ++count;
+  }
+  double mean() const { return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN(); }
+};
+
+template <class Values>
+Extremes extremes(const Values& values) {
+  Extremes result;
+  for (const double value : values) result.add(value);
+  return result;
+}
+
+/// Infinite values and NaN as text, which JSON lacks.
+nlohmann::json number(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? nlohmann::json() : nlohmann::json(value > 0 ? "inf" : "-inf");
+}
+
+nlohmann::json to_json(const std::string& path, const FileContents& contents) {
+  const Packing& packing = contents.packing;
+  nlohmann::json json = {
+      {"file", path},
+      {"protocol", packing.origin.protocol},
+      {"seed", packing.origin.seed < 0 ? nlohmann::json() : nlohmann::json(packing.origin.seed)},
+      {"disks", packing.disk_count()},
+      {"walls", packing.wall_count()},
+      {"contacts", packing.contact_count()},
+      {"gravity", {packing.gravity.x(), packing.gravity.y()}},
+      {"force_unit", packing.force_unit()},
+      {"r_max", packing.max_radius()},
+      {"forces_known", contents.balance.forces_known},
+      {"content_sha256", contents.digests.content},
+      {"intact", contents.digests.match()},
+      {"provenance", contents.provenance}};
+  if (contents.balance.forces_known) {
+    json["force_residual"] = contents.balance.force_residual;
+    json["torque_residual"] = contents.balance.torque_residual;
+    json["coulomb_violations"] = contents.balance.coulomb_violations;
+    json["sliding"] = contents.balance.sliding;
+  }
+  if (contents.ranges) {
+    const ForceRanges& r = *contents.ranges;
+    json["ranges_sha256"] = contents.digests.ranges;
+    json["ranges"] = {{"status", to_string(r.status)},
+                      {"unknowns", r.unknowns},
+                      {"equations", r.equations},
+                      {"rank", r.rank},
+                      {"rank_ambiguous", r.rank_ambiguous},
+                      {"nullity", r.nullity},
+                      {"dim", r.dim},
+                      {"formulation", r.formulation},
+                      {"objectives", r.objectives},
+                      {"certified", r.certified},
+                      {"unbounded", r.unbounded},
+                      {"imprecise", r.imprecise},
+                      {"failed", r.failed},
+                      {"states", r.states.rows()},
+                      {"mean_delta_R", number(extremes(r.delta_R).mean())},
+                      {"max_delta_R", number(r.delta_R.size() > 0 ? r.delta_R.maxCoeff() : 0)},
+                      {"mean_delta_T", number(extremes(r.delta_T).mean())},
+                      {"max_delta_T", number(r.delta_T.size() > 0 ? r.delta_T.maxCoeff() : 0)},
+                      {"worst_primal_residual", number(r.worst_primal_residual)},
+                      {"worst_dual_residual", number(r.worst_dual_residual)}};
+  }
+  return json;
+}
+
+void print_line(const std::string& name, const std::string& value) { fmt::print("{:<20}{}\n", name, value); }
+
+std::string span_text(const Extremes& e, const char* unit) {
+  if (e.count == 0) return "none";
+  return fmt::format("{:.4g} … {:.4g}{}, mean {:.4g}", e.low, e.high, unit, e.mean());
+}
+
+void print_packing(const FileContents& contents) {
+  const Packing& packing = contents.packing;
+  const double unit = packing.force_unit();
+  Extremes radius;
+  Extremes friction;
+  Extremes force;
+  for (const Disk& disk : packing.disks) radius.add(disk.radius);
+  for (const Contact& contact : packing.contacts) {
+    friction.add(contact.mu);
+    force.add(contact.R / unit);
+  }
+  std::string walls = fmt::format("{}", packing.wall_count());
+  for (const Wall& wall : packing.walls) {
+    walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ",
+                         wall.name.empty() ? fmt::format("{}", wall.id) : wall.name);
+  }
+  print_line("packing",
+             fmt::format("{}{}", packing.origin.protocol,
+                         packing.origin.seed < 0 ? "" : fmt::format(", seed {}", packing.origin.seed)));
+  print_line("  disks", fmt::format("{}, radius {}", packing.disk_count(), span_text(radius, "")));
+  print_line("  walls", walls);
+  print_line("  contacts", fmt::format("{} (2M − 3N = {})", packing.contact_count(),
+                                       2 * packing.contact_count() - 3 * packing.disk_count()));
+  print_line("  friction",
+             friction.low == friction.high ? fmt::format("{:g}", friction.low) : span_text(friction, ""));
+  print_line("  gravity",
+             fmt::format("({:g}, {:g}); the unit of force is {:.6g}{}", packing.gravity.x(),
+                         packing.gravity.y(), unit, packing.named_force_unit > 0 ? "" : " = mg"));
+  if (!contents.balance.forces_known) {
+    print_line("  simulated forces", "unknown");
+    return;
+  }
+  const BalanceReport& balance = contents.balance;
+  print_line("  simulated R", span_text(force, " mg"));
+  print_line("  balance",
+             fmt::format("force to {:.1e} mg, torque to {:.1e} mg r, {} Coulomb violations, {} sliding",
+                         balance.force_residual, balance.torque_residual, balance.coulomb_violations,
+                         balance.sliding));
+}
+
+void print_ranges(const ForceRanges& r) {
+  const auto measure = [](const Eigen::VectorXd& values) {
+    const auto infinite = std::count_if(values.begin(), values.end(), [](double v) { return std::isinf(v); });
+    return span_text(extremes(values), "") + (infinite > 0 ? fmt::format(", {} unbounded", infinite) : "");
+  };
+  print_line("force ranges", to_string(r.status));
+  print_line("  equilibrium",
+             fmt::format("{} unknowns, {} equations, rank {}{}, nullity {}, dim F {}", r.unknowns,
+                         r.equations, r.rank, r.rank_ambiguous ? " (ambiguous)" : "", r.nullity, r.dim));
+  print_line("  objectives", fmt::format("{}: {} certified, {} unbounded, {} imprecise, {} failed",
+                                         r.objectives, r.certified, r.unbounded, r.imprecise, r.failed));
+  print_line("  residuals",
+             fmt::format("primal to {:.1e}, dual to {:.1e}", r.worst_primal_residual, r.worst_dual_residual));
+  print_line("  delta_R", measure(r.delta_R));
+  print_line("  delta_T", measure(r.delta_T));
+  print_line("  d_R (mg)", measure(r.d_R));
+  print_line("  d_T (mg)", measure(r.d_T));
+  print_line("  extremal states", fmt::format("{}, formulation {}, {} solves, {} pivots", r.states.rows(),
+                                              r.formulation, r.solves, r.pivots));
+}
+
+int run(const std::string& path, const Context& context) {
+  const FileContents contents = read(path);
+  if (context.json) {
+    std::cout << to_json(path, contents).dump(2) << '\n';
+    return kDone;
+  }
+  print_line("file", path);
+  print_packing(contents);
+  if (contents.ranges) {
+    print_ranges(*contents.ranges);
+    print_line("  SHA-256", contents.digests.ranges);
+  } else {
+    print_line("force ranges", "none yet: indet analyze " + path);
+  }
+  print_line("written", fmt::format("{} on {} by indet {} ({}, {})", contents.provenance.at("created"),
+                                    contents.provenance.at("host"), contents.provenance.at("version"),
+                                    contents.provenance.at("git"), contents.provenance.at("compiler")));
+  print_line("contents", contents.digests.content + (contents.digests.match() ? "" : " DIFFERS"));
+  if (!contents.digests.match()) context.warn(path + ": its numbers are not those that were written");
+  return kDone;
+}
+
+}  // namespace
+
+Command add_inspect(CLI::App& root) {
+  const auto path = std::make_shared<std::string>();
+  CLI::App* command = root.add_subcommand("inspect", "Show what is in a file");
+  command->add_option("file", *path, "HDF5 file")->required();
+  return {command, [path](const Context& context) { return run(*path, context); }};
+}
+
+}  // namespace indet::app

@@ -1,0 +1,92 @@
+#include "indet/io/balance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "indet/base/error.h"
+#include "indet/base/tolerances.h"
+#include "indet/contact/contact_matrix.h"
+
+namespace indet {
+
+BalanceReport report_balance(const ImportedPacking& imported) {
+  const Packing& packing = imported.packing;
+  BalanceReport report;
+  report.duplicates = imported.duplicates;
+  std::vector<bool> held(packing.disks.size(), false);
+  for (const Contact& contact : packing.contacts) {
+    held[static_cast<std::size_t>(contact.a.value())] = true;
+    if (!contact.b.is_wall()) held[static_cast<std::size_t>(contact.b.disk_id().value())] = true;
+  }
+  for (std::size_t i = held.size(); i-- > 0;) {
+    if (held[i]) continue;
+    ++report.loose_disks;
+    report.first_loose = DiskId(static_cast<std::int64_t>(i));
+  }
+  report.forces_known = packing.has_simulated_forces();
+  if (!report.forces_known) return report;
+
+  const Eigen::VectorXd forces = packing.simulated_forces();
+  const auto residual = equilibrium_residual(packing, forces);
+  for (int i = 0; i < packing.disk_count(); ++i) {
+    const double force = std::hypot(residual(i, 0), residual(i, 1));
+    if (force > report.force_residual) {
+      report.force_residual = force;
+      report.worst_force = DiskId(i);
+    }
+    const double torque = std::abs(residual(i, 2));
+    if (torque > report.torque_residual) {
+      report.torque_residual = torque;
+      report.worst_torque = DiskId(i);
+    }
+  }
+  const CoulombCount coulomb = count_coulomb(packing, forces, tolerance::kSliding);
+  report.coulomb_violations = coulomb.violated;
+  report.worst_violation = coulomb.worst_violation;
+  report.sliding = coulomb.sliding;
+  report.non_transmitting = coulomb.non_transmitting;
+  return report;
+}
+
+double default_balance_tolerance(const ImportedPacking& imported) {
+  const Packing& packing = imported.packing;
+  // A rounded coordinate x turns a normal by up to rounding · |x| / r; each of about six contacts then errs
+  // by that times its force.
+  double extent = 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Disk& disk : packing.disks) {
+    extent = std::max(extent, disk.position.lpNorm<Eigen::Infinity>());
+    smallest = std::min(smallest, disk.radius);
+  }
+  double largest_force = 0;
+  for (const Contact& contact : packing.contacts) {
+    largest_force = std::max({largest_force, std::abs(contact.R), std::abs(contact.T)});
+  }
+  if (packing.disks.empty() || !std::isfinite(largest_force)) return tolerance::kBalance;
+  const double rounded = 6 * imported.rounding * (1 + extent / smallest) * largest_force;
+  return std::max(tolerance::kBalance, rounded / packing.force_unit());
+}
+
+void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
+  const double worst = std::max(report.force_residual, report.torque_residual);
+  if (!report.forces_known || worst <= tolerance) return;
+  const bool force = report.force_residual >= report.torque_residual;
+  const DiskId disk = force ? report.worst_force : report.worst_torque;
+  const bool loose = std::none_of(
+      imported.packing.contacts.begin(), imported.packing.contacts.end(),
+      [&](const Contact& c) { return c.a == disk || (!c.b.is_wall() && c.b.disk_id() == disk); });
+  throw InputError(fmt::format(
+      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. {}",
+      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance,
+      loose
+          ? "This disk has no contact: leave it out, or give the contacts that hold it."
+          : "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
+            "and their forces the normal and tangential ones on body a? If the deviation is acceptable, "
+            "raise --balance-tol; the ranges do not depend on the simulated forces."));
+}
+
+}  // namespace indet

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "indet/io/imported_packing.h"
+
+namespace indet {
+
+/// How well the forces of an imported packing hold it in equilibrium. Residuals are in the packing's unit of
+/// force (mg), those of torque divided by the radius of the disk.
+struct BalanceReport {
+  bool forces_known = false;  ///< If not, all that follows but loose_disks is 0.
+  double force_residual = 0;  ///< Largest magnitude of the net force on a disk.
+  DiskId worst_force;
+  double torque_residual = 0;  ///< Largest magnitude of the net torque on a disk.
+  DiskId worst_torque;
+  int coulomb_violations = 0;  ///< Contacts with R < −ε or |T| > μR + ε, ε = tolerance::kSliding.
+  double worst_violation = 0;  ///< Largest of −R and |T| − μR.
+  int sliding = 0;             ///< Non-transmitting contacts count twice.
+  int non_transmitting = 0;    ///< R and |T| below ε.
+  int duplicates = 0;          ///< Contacts given twice with equal forces, and taken once.
+  int loose_disks = 0;         ///< Disks without contacts.
+  DiskId first_loose;          ///< The first of them.
+};
+
+BalanceReport report_balance(const ImportedPacking& imported);
+
+/// The residual (mg) up to which an import is accepted unless the user says otherwise: tolerance::kBalance,
+/// or what the rounding of a file with few digits explains.
+double default_balance_tolerance(const ImportedPacking& imported);
+
+/// Throws InputError with advice if a residual is above `tolerance` (mg). A packing whose forces are unknown
+/// passes.
+void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance);
+
+}  // namespace indet

@@ -1,0 +1,246 @@
+#include "indet/io/csv_reader.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "indet/base/error.h"
+#include "indet/io/table.h"
+#include "indet/packing/validate.h"
+
+namespace indet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// scene.toml
+struct Scene {
+  std::string source;
+  Vector2 gravity{0, -1};
+  double force_unit = 0;
+  std::optional<double> mu;
+};
+
+[[noreturn]] void fail(const std::string& source, const toml::node& node, const std::string& reason) {
+  throw InputError(fmt::format("{}:{}: {}", source, node.source().begin.line, reason));
+}
+
+double scene_number(const std::string& source, const std::string& key, const toml::node& node) {
+  const auto value = node.value<double>();
+  if (!value) fail(source, node, fmt::format("{} must be a number", key));
+  if (!std::isfinite(*value)) fail(source, node, fmt::format("{} must be finite", key));
+  return *value;
+}
+
+Scene read_scene(const fs::path& path) {
+  Scene scene;
+  scene.source = path.string();
+  if (!fs::exists(path)) return scene;
+  const auto text = read_text(path);
+  toml::table table;
+  try {
+    table = toml::parse(*text, scene.source);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", scene.source, error.source().begin.line, error.description()));
+  }
+  for (const auto& [key_view, node] : table) {
+    const std::string key(key_view.str());
+    if (key == "gravity") {
+      const toml::array* array = node.as_array();
+      if (array == nullptr || array->size() != 2) {
+        fail(scene.source, node, "gravity must be a list of two numbers, e.g. [0, -1]");
+      }
+      scene.gravity = {scene_number(scene.source, key, *array->get(0)),
+                       scene_number(scene.source, key, *array->get(1))};
+    } else if (key == "force_unit") {
+      scene.force_unit = scene_number(scene.source, key, node);
+      if (!(scene.force_unit > 0)) {
+        fail(scene.source, node, fmt::format("force_unit must be positive, but is {}", scene.force_unit));
+      }
+    } else if (key == "mu") {
+      scene.mu = scene_number(scene.source, key, node);
+      if (*scene.mu < 0) {
+        fail(scene.source, node, fmt::format("mu must not be negative, but is {}", *scene.mu));
+      }
+    } else {
+      fail(scene.source, node, fmt::format("{} is unknown; the known keys are gravity, force_unit, mu", key));
+    }
+  }
+  return scene;
+}
+
+/// The row of each id.
+using IdMap = std::unordered_map<std::int32_t, int>;
+
+std::int32_t unique_id(const Table& table, int row, IdMap& ids) {
+  const std::int32_t id = table.integer(row, "id");
+  if (id < 0) table.fail(row, "id", fmt::format("{} is negative; ids count from 0 up", id));
+  const auto [earlier, is_new] = ids.emplace(id, row);
+  if (!is_new) {
+    table.fail(row, "id",
+               fmt::format("{} is given twice, first in line {}", id, table.line(earlier->second)));
+  }
+  return id;
+}
+
+std::vector<Disk> read_disks(const Table& table, IdMap& ids) {
+  table.require({"id", "x", "y", "radius", "mass"});
+  table.allow_only(
+      {"id", "x", "y", "radius", "mass", "inertia", "angle", "vx", "vy", "omega", "fx", "fy", "torque"});
+  std::vector<Disk> disks;
+  for (int row = 0; row < table.rows(); ++row) {
+    Disk disk;
+    disk.id = unique_id(table, row, ids);
+    disk.position = {table.number(row, "x"), table.number(row, "y")};
+    disk.radius = table.number(row, "radius");
+    disk.mass = table.number(row, "mass");
+    disk.inertia = table.number_or(row, "inertia", 0.5 * disk.mass * disk.radius * disk.radius);
+    disk.angle = table.number_or(row, "angle", 0);
+    disk.velocity = {table.number_or(row, "vx", 0), table.number_or(row, "vy", 0)};
+    disk.angular_velocity = table.number_or(row, "omega", 0);
+    disk.load = {table.number_or(row, "fx", 0), table.number_or(row, "fy", 0),
+                 table.number_or(row, "torque", 0)};
+    disks.push_back(disk);
+  }
+  if (disks.empty()) throw InputError(fmt::format("{}: there is no disk in it", table.source()));
+  return disks;
+}
+
+std::vector<Wall> read_walls(const Table& table, IdMap& ids) {
+  table.require({"id", "px", "py", "nx", "ny"});
+  table.allow_only({"id", "px", "py", "nx", "ny", "name"});
+  std::vector<Wall> walls;
+  for (int row = 0; row < table.rows(); ++row) {
+    Wall wall;
+    wall.id = unique_id(table, row, ids);
+    wall.point = {table.number(row, "px"), table.number(row, "py")};
+    wall.normal = {table.number(row, "nx"), table.number(row, "ny")};
+    if (!table.is_empty(row, "name")) wall.name = table.text(row, "name");
+    walls.push_back(wall);
+  }
+  return walls;
+}
+
+/// The bodies of a row of contacts.csv.
+std::pair<DiskId, Body> read_bodies(const Table& table, int row, const IdMap& disks, const IdMap& walls) {
+  const std::int32_t a = table.integer(row, "a");
+  const std::int32_t b = table.integer(row, "b");
+  if (a < 0 && b < 0) table.fail(row, "a wall cannot touch a wall");
+  if (a < 0) table.fail(row, "a", fmt::format("{} is a wall; the wall of a contact must be b", a));
+  const auto disk_a = disks.find(a);
+  if (disk_a == disks.end()) table.fail(row, "a", fmt::format("there is no disk {}", a));
+  const DiskId id_a(disk_a->second);
+  if (b < 0) {
+    const std::int32_t wall = -(b + 1);
+    const auto wall_b = walls.find(wall);
+    if (wall_b == walls.end())
+      table.fail(row, "b", fmt::format("{} is wall {}, but there is no such wall", b, wall));
+    return {id_a, Body::wall(WallId(wall_b->second))};
+  }
+  if (a == b) table.fail(row, fmt::format("disk {} cannot touch itself", a));
+  const auto disk_b = disks.find(b);
+  if (disk_b == disks.end()) table.fail(row, "b", fmt::format("there is no disk {}", b));
+  return {id_a, Body::disk(DiskId(disk_b->second))};
+}
+
+double read_friction(const Table& table, int row, const Scene& scene) {
+  if (!table.is_empty(row, "mu")) return table.number(row, "mu");
+  if (!scene.mu) {
+    table.fail(row, fmt::format("the friction is not given, neither in column mu nor as mu = … in {}",
+                                scene.source));
+  }
+  return *scene.mu;
+}
+
+std::vector<Contact> read_contacts(const Table& table, const Packing& packing, const IdMap& disks,
+                                   const IdMap& walls, const Scene& scene) {
+  table.require({"a", "b"});
+  table.allow_only({"a", "b", "nx", "ny", "mu", "R", "T", "gap"});
+  std::vector<Contact> contacts;
+  std::map<std::pair<std::int32_t, std::int32_t>, int> rows;
+  for (int row = 0; row < table.rows(); ++row) {
+    Contact contact;
+    std::tie(contact.a, contact.b) = read_bodies(table, row, disks, walls);
+    const std::pair<std::int32_t, std::int32_t> key = std::minmax({contact.a.value(), contact.b.code()});
+    const auto [earlier, is_new] = rows.emplace(key, row);
+    if (!is_new) {
+      table.fail(row,
+                 fmt::format("this contact is given twice, first in line {}", table.line(earlier->second)));
+    }
+    if (table.is_empty(row, "nx") != table.is_empty(row, "ny")) {
+      table.fail(row, "nx and ny must both be given, or both be empty");
+    }
+    try {
+      contact.normal = table.is_empty(row, "nx") ? geometric_normal(packing, contact.a, contact.b)
+                                                 : Vector2(table.number(row, "nx"), table.number(row, "ny"));
+    } catch (const InputError& error) {
+      if (!table.is_empty(row, "nx")) throw;
+      table.fail(row, error.what());
+    }
+    contact.gap = table.number_or(row, "gap", geometric_gap(packing, contact.a, contact.b));
+    contact.mu = read_friction(table, row, scene);
+    contact.R = table.number_or(row, "R", kNaN);
+    contact.T = table.number_or(row, "T", kNaN);
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+/// Printed normals are rounded; within the tolerance that validation allows, the length is 1 by definition. A
+/// normal of full precision keeps its bits.
+void set_unit_length(Vector2& normal) {
+  if (std::abs(normal.squaredNorm() - 1) > 4 * std::numeric_limits<double>::epsilon()) normal.normalize();
+}
+
+/// Throws the first defect of `packing` with the file and line that it comes from.
+void fail_at_defect(const Packing& packing, PackingPart part, const Table& table) {
+  const auto defect = find_defect(packing);
+  if (defect && defect->part == part) table.fail(defect->index, defect->reason);
+}
+
+}  // namespace
+
+ImportedPacking read_csv_scene(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(fmt::format("{}: is not a folder with disks.csv, contacts.csv, walls.csv, scene.toml",
+                                 folder.string()));
+  }
+  ImportedPacking imported;
+  Packing& packing = imported.packing;
+  const Scene scene = read_scene(folder / "scene.toml");
+  packing.gravity = scene.gravity;
+  packing.named_force_unit = scene.force_unit;
+  packing.origin.protocol = "import csv";
+
+  // Each part is checked before the next one refers to it: a normal needs sound positions.
+  IdMap disk_ids;
+  const Table disks = read_csv(folder / "disks.csv");
+  packing.disks = read_disks(disks, disk_ids);
+  fail_at_defect(packing, PackingPart::kDisk, disks);
+  IdMap wall_ids;
+  if (fs::exists(folder / "walls.csv")) {
+    const Table walls = read_csv(folder / "walls.csv");
+    packing.walls = read_walls(walls, wall_ids);
+    fail_at_defect(packing, PackingPart::kWall, walls);
+  }
+  const Table contacts = read_csv(folder / "contacts.csv");
+  packing.contacts = read_contacts(contacts, packing, disk_ids, wall_ids, scene);
+  fail_at_defect(packing, PackingPart::kContact, contacts);
+  validate(packing, scene.source);
+  for (Wall& wall : packing.walls) set_unit_length(wall.normal);
+  for (Contact& contact : packing.contacts) set_unit_length(contact.normal);
+  warn_of_large_gaps(imported);
+  return imported;
+}
+
+}  // namespace indet

@@ -1,0 +1,138 @@
+#include "indet/io/csv_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "indet/base/error.h"
+#include "indet/io/whole_file.h"
+
+namespace indet {
+namespace {
+
+/// The shortest text that reads back as the same number; empty for NaN.
+std::string field(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+/// A text that may hold commas and comment signs.
+std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? text : "\"" + text + "\"";
+}
+
+/// The ids under which bodies appear in the files: their own, or their rows if those are not fit for it.
+template <class Item>
+std::vector<std::int32_t> file_ids(const std::vector<Item>& items) {
+  std::vector<std::int32_t> ids;
+  std::set<std::int32_t> seen;
+  for (const Item& item : items) {
+    ids.push_back(item.id);
+    if (item.id >= 0) seen.insert(item.id);
+  }
+  if (seen.size() == items.size()) return ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
+  return ids;
+}
+
+struct FileIds {
+  std::vector<std::int32_t> disks, walls;
+
+  explicit FileIds(const Packing& packing) : disks(file_ids(packing.disks)), walls(file_ids(packing.walls)) {}
+  std::int32_t of(DiskId disk) const { return disks[static_cast<std::size_t>(disk.value())]; }
+  std::int32_t of(Body body) const {
+    return body.is_wall() ? -(walls[static_cast<std::size_t>(body.wall_id().value())] + 1)
+                          : of(body.disk_id());
+  }
+};
+
+std::string disks_text(const Packing& packing, const FileIds& ids) {
+  std::string text = "id,x,y,radius,mass,inertia,angle,vx,vy,omega,fx,fy,torque\n";
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    const Disk& d = packing.disks[i];
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", ids.disks[i], d.position.x(),
+                        d.position.y(), d.radius, d.mass, d.inertia, d.angle, d.velocity.x(), d.velocity.y(),
+                        d.angular_velocity, d.load.x(), d.load.y(), d.load.z());
+  }
+  return text;
+}
+
+std::string walls_text(const Packing& packing, const FileIds& ids) {
+  std::string text = "id,px,py,nx,ny,name\n";
+  for (std::size_t i = 0; i < packing.walls.size(); ++i) {
+    const Wall& w = packing.walls[i];
+    text += fmt::format("{},{},{},{},{},{}\n", ids.walls[i], w.point.x(), w.point.y(), w.normal.x(),
+                        w.normal.y(), quoted(w.name));
+  }
+  return text;
+}
+
+std::string contacts_text(const Packing& packing, const FileIds& ids,
+                          const Eigen::Ref<const Eigen::VectorXd>& forces) {
+  std::string text = "a,b,nx,ny,mu,R,T,gap\n";
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& c = packing[ContactId(i)];
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", ids.of(c.a), ids.of(c.b), c.normal.x(), c.normal.y(),
+                        c.mu, field(forces[2 * i]), field(forces[2 * i + 1]), c.gap);
+  }
+  return text;
+}
+
+std::string scene_text(const Packing& packing) {
+  std::string text = fmt::format("gravity = [{}, {}]\n", packing.gravity.x(), packing.gravity.y());
+  if (packing.named_force_unit > 0) text += fmt::format("force_unit = {}\n", packing.named_force_unit);
+  return text;
+}
+
+}  // namespace
+
+void write_csv_scene(const std::filesystem::path& folder, const Packing& packing,
+                     const Eigen::Ref<const Eigen::VectorXd>& forces) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw InputError(fmt::format("{}: the folder cannot be made ({})", folder.string(),
+                                 error ? error.message() : "there is a file of this name"));
+  }
+  const FileIds ids(packing);
+  write_whole_file(folder / "disks.csv", disks_text(packing, ids));
+  write_whole_file(folder / "walls.csv", walls_text(packing, ids));
+  write_whole_file(folder / "contacts.csv", contacts_text(packing, ids, forces));
+  write_whole_file(folder / "scene.toml", scene_text(packing));
+}
+
+void write_contact_table(const std::filesystem::path& path, const Packing& packing,
+                         const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges) {
+  constexpr std::array kColumns = {kMinR, kMaxR, kMinT, kMaxT};
+  const FileIds ids(packing);
+  std::string text = "contact,a,b,x,y,nx,ny,gap,mu,R,T";
+  if (ranges != nullptr) {
+    for (const Column column : kColumns) text += fmt::format(",{0},{0}_outcome", to_string(column));
+    text += ",delta_R,delta_T,d_R,d_T,R_star,T_star";
+  }
+  text += "\n";
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& c = packing[ContactId(i)];
+    const Vector2 point = packing[c.a].position - packing[c.a].radius * c.normal;
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
+                    c.normal.x(), c.normal.y(), c.gap, c.mu, field(forces[2 * i]), field(forces[2 * i + 1]));
+    if (ranges != nullptr) {
+      for (const Column column : kColumns) {
+        text += fmt::format(",{},{}", field(ranges->value(i, column)), to_string(ranges->outcome(i, column)));
+      }
+      for (const double measure : {ranges->delta_R[i], ranges->delta_T[i], ranges->d_R[i], ranges->d_T[i],
+                                   ranges->R_star[i], ranges->T_star[i]}) {
+        text += "," + field(measure);
+      }
+    }
+    text += "\n";
+  }
+  write_whole_file(path, text);
+}
+
+}  // namespace indet

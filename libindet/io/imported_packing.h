@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "indet/packing/packing.h"
+
+namespace indet {
+
+/// What an importer returns: a valid packing, and what its user should know about it.
+struct ImportedPacking {
+  Packing packing;
+  std::vector<std::string> warnings;
+  int duplicates = 0;   ///< Contacts that were given twice with the same forces, and dropped once.
+  double rounding = 0;  ///< Relative rounding of the numbers in the file where they were printed with few
+                        ///< digits (5e-6 for six); 0 for full precision.
+};
+
+/// Appends a warning for each contact (at most a few) whose bodies are further apart, or overlap more, than
+/// 1 % of the largest radius: the force directions then belong to another geometry.
+void warn_of_large_gaps(ImportedPacking& imported);
+
+}  // namespace indet

@@ -1,0 +1,151 @@
+#include "indet/io/lammps_dump.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "indet/base/error.h"
+
+namespace indet {
+namespace {
+
+/// A frame that was found in the file, and where its rows begin.
+struct FrameHeader {
+  std::int64_t timestep = 0;
+  std::int64_t rows = 0;   ///< As announced.
+  std::int64_t found = 0;  ///< As counted.
+  std::array<double, 2> low{}, high{};
+  std::array<bool, 2> periodic{};
+  int columns_line = 0;
+  std::vector<std::string> columns;
+  LineReader body{""};
+};
+
+/// Finds the frames of a dump without parsing their rows.
+class DumpIndex {
+ public:
+  DumpIndex(std::string source, std::string_view text) : source_(std::move(source)), lines_(text) {
+    have_line_ = advance();
+    while (have_line_) frames_.push_back(read_frame());
+    if (frames_.empty()) throw InputError(fmt::format("{}: the file is empty", source_));
+  }
+
+  const FrameHeader& choose(std::optional<std::int64_t> timestep) const {
+    if (!timestep) return frames_.back();
+    for (const FrameHeader& frame : frames_) {
+      if (frame.timestep == *timestep) return frame;
+    }
+    throw InputError(fmt::format("{}: there is no frame of timestep {}; the file has {} ({} … {})", source_,
+                                 *timestep, frames_.size(), frames_.front().timestep,
+                                 frames_.back().timestep));
+  }
+
+ private:
+  /// The next line that is not blank.
+  bool advance() {
+    while (lines_.next(&line_)) {
+      if (!trimmed(line_).empty()) return true;
+    }
+    return false;
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InputError(fmt::format("{}:{}: {}", source_, lines_.line_number(), reason));
+  }
+
+  void need_line() {
+    if (!advance()) fail("the file ends within the header of a frame; it is truncated");
+  }
+
+  std::int64_t whole_number(const char* what) {
+    need_line();
+    std::int64_t value = 0;
+    if (!parse_number(line_, &value) || value < 0) {
+      fail(fmt::format("\"{}\" is not a {}", trimmed(line_), what));
+    }
+    return value;
+  }
+
+  void read_box(const std::vector<std::string_view>& words, FrameHeader& frame) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      need_line();
+      if (axis == 2) break;
+      const auto bounds = split_words(line_);
+      if (bounds.size() < 2 || !parse_number(bounds[0], &frame.low[axis]) ||
+          !parse_number(bounds[1], &frame.high[axis])) {
+        fail("the bounds of the box must be two numbers");
+      }
+      // The boundary flags are the last three words: "ff pp ff".
+      frame.periodic[axis] = words.size() >= 3 && words[words.size() - 3 + axis].starts_with('p');
+    }
+  }
+
+  FrameHeader read_frame() {
+    if (trimmed(line_) != "ITEM: TIMESTEP") {
+      fail(frames_.empty() ? "this is not a LAMMPS text dump: it does not begin with ITEM: TIMESTEP"
+                           : "a frame must begin with ITEM: TIMESTEP");
+    }
+    FrameHeader frame;
+    frame.timestep = whole_number("timestep");
+    std::string label;
+    while (true) {
+      need_line();
+      auto words = split_words(line_);
+      if (words.size() < 2 || words[0] != "ITEM:") fail("a line that begins with ITEM: is expected");
+      const std::string_view item = trimmed(trimmed(line_).substr(5));
+      if (item.starts_with("NUMBER OF ")) {
+        label = trimmed(item.substr(10));
+        frame.rows = whole_number("number of rows");
+      } else if (item.starts_with("BOX BOUNDS")) {
+        read_box(words, frame);
+      } else if (item == "UNITS" || item == "TIME") {
+        need_line();
+      } else if (!label.empty() && item.starts_with(label)) {
+        for (const std::string_view word : split_words(item.substr(label.size()))) {
+          frame.columns.emplace_back(word);
+        }
+        break;
+      } else {
+        fail(fmt::format("ITEM: {} is unknown", item));
+      }
+    }
+    frame.columns_line = lines_.line_number();
+    frame.body = lines_;
+    while ((have_line_ = advance()) && !line_.starts_with("ITEM:")) {
+      if (frame.found == frame.rows) fail(fmt::format("more rows than the {} announced", frame.rows));
+      ++frame.found;
+    }
+    return frame;
+  }
+
+  std::string source_;
+  LineReader lines_;
+  std::string_view line_;
+  bool have_line_ = false;
+  std::vector<FrameHeader> frames_;
+};
+
+}  // namespace
+
+DumpFrame read_dump_frame(const std::filesystem::path& path, std::optional<std::int64_t> timestep) {
+  const auto text = read_text(path);
+  const DumpIndex index(path.string(), *text);
+  const FrameHeader& header = index.choose(timestep);
+  if (header.found < header.rows) {
+    throw InputError(
+        fmt::format("{}: the frame of timestep {} has only {} of its {} rows; the file is truncated",
+                    path.string(), header.timestep, header.found, header.rows));
+  }
+  DumpFrame frame{header.timestep, header.low, header.high, header.periodic,
+                  Table(path.string(), text, header.columns_line, header.columns)};
+  LineReader lines = header.body;
+  std::string_view line;
+  while (frame.table.rows() < header.rows && lines.next(&line)) {
+    auto words = split_words(line);
+    if (!words.empty()) frame.table.add_row(lines.line_number(), std::move(words));
+  }
+  return frame;
+}
+
+}  // namespace indet

@@ -1,0 +1,329 @@
+#include "indet/io/packing_file.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include "indet/base/error.h"
+#include "indet/base/version.h"
+#include "indet/packing/validate.h"
+
+namespace indet {
+namespace {
+
+constexpr std::int64_t kSchemaMajor = 1;
+constexpr std::int64_t kSchemaMinor = 0;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// One number of each item.
+template <class T, class Item, class Get>
+std::vector<T> column(const std::vector<Item>& items, Get get) {
+  std::vector<T> values;
+  values.reserve(items.size());
+  for (const Item& item : items) values.push_back(get(item));
+  return values;
+}
+
+/// The components of a vector of each item, [items, size].
+template <class Item, class Get>
+std::vector<double> rows(const std::vector<Item>& items, Get get) {
+  std::vector<double> values;
+  for (const Item& item : items) {
+    const auto& vector = get(item);
+    values.insert(values.end(), vector.data(), vector.data() + vector.size());
+  }
+  return values;
+}
+
+/// The friction that all contacts share; NaN if they differ or there is none.
+double common_friction(const Packing& packing) {
+  if (packing.contacts.empty()) return kNaN;
+  const double mu = packing.contacts.front().mu;
+  const bool same = std::all_of(packing.contacts.begin(), packing.contacts.end(),
+                                [&](const Contact& c) { return c.mu == mu; });
+  return same ? mu : kNaN;
+}
+
+void write_parameters(Hdf5File& file, const Packing& packing) {
+  file.make_group("/parameters");
+  file.set_attribute("/parameters", "protocol", packing.origin.protocol);
+  file.set_attribute("/parameters", "seed", packing.origin.seed);
+  file.set_attribute("/parameters", "config", packing.origin.config);
+  file.set_attribute("/parameters", "mu", common_friction(packing));
+  file.set_attribute("/parameters", "gravity",
+                     std::span<const double>(packing.gravity.data(), static_cast<std::size_t>(2)));
+  file.set_attribute("/parameters", "mg", packing.force_unit());
+  file.set_attribute("/parameters", "force_unit", packing.named_force_unit);
+  file.set_attribute("/parameters", "r_max", packing.max_radius());
+}
+
+void write_disks(Hdf5File& file, const std::vector<Disk>& disks) {
+  const std::string group = "/particles/disks";
+  const std::size_t n = disks.size();
+  file.make_group(group);
+  file.make_group(group + "/box");  // H5MD: a scene without periodic boundaries
+  file.set_attribute(group + "/box", "dimension", 2);
+  file.set_attribute(group + "/box", "boundary", std::vector<std::string>{"none", "none"});
+  file.write(group + "/id", column<std::int32_t>(disks, [](const Disk& d) { return d.id; }), {n},
+             {"1", "name of the disk"});
+  file.write(group + "/position",
+             rows(
+                 disks, [](const Disk& d) -> auto& { return d.position; }),
+             {n, 2}, {"length", "centre x, y"});
+  file.write(group + "/angle", column<double>(disks, [](const Disk& d) { return d.angle; }), {n},
+             {"rad", "orientation"});
+  file.write(group + "/velocity",
+             rows(
+                 disks, [](const Disk& d) -> auto& { return d.velocity; }),
+             {n, 2}, {"length/time", "velocity x, y"});
+  file.write(group + "/angular_velocity",
+             column<double>(disks, [](const Disk& d) { return d.angular_velocity; }), {n},
+             {"rad/time", "angular velocity"});
+  file.write(group + "/radius", column<double>(disks, [](const Disk& d) { return d.radius; }), {n},
+             {"length", "radius"});
+  file.write(group + "/mass", column<double>(disks, [](const Disk& d) { return d.mass; }), {n},
+             {"mass", "mass"});
+  file.write(group + "/inertia", column<double>(disks, [](const Disk& d) { return d.inertia; }), {n},
+             {"mass*length^2", "moment of inertia"});
+  file.write(group + "/load",
+             rows(
+                 disks, [](const Disk& d) -> auto& { return d.load; }),
+             {n, 3}, {"force, force, force*length", "external force x, y and torque beside gravity"});
+}
+
+void write_walls(Hdf5File& file, const std::vector<Wall>& walls) {
+  const std::size_t n = walls.size();
+  file.make_group("/walls");
+  file.write("/walls/id", column<std::int32_t>(walls, [](const Wall& w) { return w.id; }), {n},
+             {"1", "number of the wall in its source"});
+  file.write("/walls/point",
+             rows(
+                 walls, [](const Wall& w) -> auto& { return w.point; }),
+             {n, 2}, {"length", "a point of the wall x, y"});
+  file.write("/walls/normal",
+             rows(
+                 walls, [](const Wall& w) -> auto& { return w.normal; }),
+             {n, 2}, {"1", "unit normal into the domain x, y"});
+  file.write_strings("/walls/name", column<std::string>(walls, [](const Wall& w) { return w.name; }),
+                     {"1", "name of the wall"});
+}
+
+void write_contacts(Hdf5File& file, const std::vector<Contact>& contacts) {
+  const std::size_t n = contacts.size();
+  file.make_group("/contacts");
+  file.write("/contacts/body_a", column<std::int32_t>(contacts, [](const Contact& c) { return c.a.value(); }),
+             {n}, {"1", "row of disk a"});
+  file.write("/contacts/body_b", column<std::int32_t>(contacts, [](const Contact& c) { return c.b.code(); }),
+             {n}, {"1", "row of disk b, or -(w+1) for the wall of row w"});
+  file.write("/contacts/normal",
+             rows(
+                 contacts, [](const Contact& c) -> auto& { return c.normal; }),
+             {n, 2}, {"1", "unit normal from b to a x, y"});
+  file.write("/contacts/gap", column<double>(contacts, [](const Contact& c) { return c.gap; }), {n},
+             {"length", "distance of the surfaces, negative where they overlap"});
+  file.write("/contacts/mu", column<double>(contacts, [](const Contact& c) { return c.mu; }), {n},
+             {"1", "Coulomb friction coefficient"});
+  file.write("/contacts/R", column<double>(contacts, [](const Contact& c) { return c.R; }), {n},
+             {"force", "normal force as simulated, NaN if unknown"});
+  file.write("/contacts/T", column<double>(contacts, [](const Contact& c) { return c.T; }), {n},
+             {"force", "tangential force as simulated, NaN if unknown"});
+}
+
+std::vector<Disk> read_disks(const Hdf5File& file) {
+  const std::string group = "/particles/disks";
+  const std::size_t n = file.shape(group + "/id", 1)[0];
+  const auto id = file.read_integers(group + "/id", {n});
+  const auto position = file.read_doubles(group + "/position", {n, 2});
+  const auto angle = file.read_doubles(group + "/angle", {n});
+  const auto velocity = file.read_doubles(group + "/velocity", {n, 2});
+  const auto angular_velocity = file.read_doubles(group + "/angular_velocity", {n});
+  const auto radius = file.read_doubles(group + "/radius", {n});
+  const auto mass = file.read_doubles(group + "/mass", {n});
+  const auto inertia = file.read_doubles(group + "/inertia", {n});
+  const auto load = file.read_doubles(group + "/load", {n, 3});
+  std::vector<Disk> disks(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    disks[i] = Disk{.id = id[i],
+                    .position = {position[2 * i], position[2 * i + 1]},
+                    .radius = radius[i],
+                    .mass = mass[i],
+                    .inertia = inertia[i],
+                    .angle = angle[i],
+                    .velocity = {velocity[2 * i], velocity[2 * i + 1]},
+                    .angular_velocity = angular_velocity[i],
+                    .load = {load[3 * i], load[3 * i + 1], load[3 * i + 2]}};
+  }
+  return disks;
+}
+
+std::vector<Wall> read_walls(const Hdf5File& file) {
+  const std::size_t n = file.shape("/walls/point", 2)[0];
+  const auto id = file.read_integers("/walls/id", {n});
+  const auto point = file.read_doubles("/walls/point", {n, 2});
+  const auto normal = file.read_doubles("/walls/normal", {n, 2});
+  const auto name = file.read_strings("/walls/name", n);
+  std::vector<Wall> walls(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    walls[i] = Wall{.id = id[i],
+                    .point = {point[2 * i], point[2 * i + 1]},
+                    .normal = {normal[2 * i], normal[2 * i + 1]},
+                    .name = name[i]};
+  }
+  return walls;
+}
+
+std::vector<Contact> read_contacts(const Hdf5File& file) {
+  const std::size_t n = file.shape("/contacts/body_a", 1)[0];
+  const auto a = file.read_integers("/contacts/body_a", {n});
+  const auto b = file.read_integers("/contacts/body_b", {n});
+  const auto normal = file.read_doubles("/contacts/normal", {n, 2});
+  const auto gap = file.read_doubles("/contacts/gap", {n});
+  const auto mu = file.read_doubles("/contacts/mu", {n});
+  const auto r = file.read_doubles("/contacts/R", {n});
+  const auto t = file.read_doubles("/contacts/T", {n});
+  std::vector<Contact> contacts(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    contacts[i] = Contact{.a = DiskId(a[i]),
+                          .b = Body::from_code(b[i]),
+                          .normal = {normal[2 * i], normal[2 * i + 1]},
+                          .gap = gap[i],
+                          .mu = mu[i],
+                          .R = r[i],
+                          .T = t[i]};
+  }
+  return contacts;
+}
+
+std::string user_name() {
+  const char* user = std::getenv("USER");
+  return user != nullptr && *user != '\0' ? user : "unknown";
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// Everything outside /provenance.
+std::string content_digest(const Hdf5File& file) {
+  std::vector<std::string> objects = file.top_objects();
+  std::erase(objects, "/provenance");
+  return file.sha256(objects);
+}
+
+}  // namespace
+
+void write_header(Hdf5File& file) {
+  file.set_attribute("/", "Conventions", "H5MD-1.1 indet-1");
+  const std::array<std::int64_t, 2> schema = {kSchemaMajor, kSchemaMinor};
+  file.set_attribute("/", "schema_version", std::span<const std::int64_t>(schema));
+  const std::array<std::int64_t, 2> h5md = {1, 1};
+  file.make_group("/h5md");
+  file.set_attribute("/h5md", "version", std::span<const std::int64_t>(h5md));
+  file.make_group("/h5md/author");
+  file.set_attribute("/h5md/author", "name", user_name());
+  file.make_group("/h5md/creator");
+  file.set_attribute("/h5md/creator", "name", "indet");
+  file.set_attribute("/h5md/creator", "version", version());
+}
+
+void write_packing_part(Hdf5File& file, const Packing& packing) {
+  write_parameters(file, packing);
+  write_disks(file, packing.disks);
+  write_walls(file, packing.walls);
+  write_contacts(file, packing.contacts);
+}
+
+Packing read_packing_part(const Hdf5File& file) {
+  Packing packing;
+  packing.origin.protocol = file.string_attribute("/parameters", "protocol");
+  packing.origin.seed = file.integer_attribute("/parameters", "seed");
+  packing.origin.config = file.string_attribute("/parameters", "config");
+  const auto gravity = file.doubles_attribute("/parameters", "gravity", 2);
+  packing.gravity = {gravity[0], gravity[1]};
+  packing.named_force_unit = file.double_attribute("/parameters", "force_unit");
+  packing.disks = read_disks(file);
+  packing.walls = read_walls(file);
+  packing.contacts = read_contacts(file);
+  validate(packing, file.path().string());
+  return packing;
+}
+
+void write_provenance_part(Hdf5File& file, const Provenance& provenance) {
+  file.make_group("/provenance");
+  const auto set = [&](const std::string& name, const std::string& value) {
+    file.set_attribute("/provenance", name, value);
+  };
+  set("version", version());
+  set("git", git_revision());
+  set("compiler", compiler());
+  set("host", host_name());
+  set("created",
+      fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                  fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))));
+  file.set_attribute("/provenance", "argv", provenance.arguments);
+  set("config", provenance.config);
+  file.make_group("/provenance/libraries");
+  std::map<std::string, std::string> libraries = provenance.libraries;
+  libraries["HDF5"] = hdf5_version();
+  libraries["Eigen"] = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+  for (const auto& [name, number] : libraries) file.set_attribute("/provenance/libraries", name, number);
+  file.make_group("/provenance/timings");
+  for (const auto& [stage, seconds] : provenance.seconds) {
+    file.set_attribute("/provenance/timings", stage, seconds);
+  }
+}
+
+void seal(Hdf5File& file) {
+  file.set_attribute("/", "content_sha256", content_digest(file));
+  file.set_attribute("/", "complete", 1);
+  file.commit();
+}
+
+void write_packing(const std::filesystem::path& path, const Packing& packing, const Provenance& provenance) {
+  Hdf5File file = Hdf5File::create(path);
+  write_header(file);
+  write_packing_part(file, packing);
+  write_provenance_part(file, provenance);
+  seal(file);
+}
+
+Hdf5File open_indet_file(const std::filesystem::path& path) {
+  Hdf5File file = Hdf5File::open(path);
+  const auto fail = [&](const std::string& reason) {
+    throw Hdf5ReadError(fmt::format("{}: {}", path.string(), reason));
+  };
+  if (!file.has_attribute("/", "schema_version")) fail("is an HDF5 file, but not one of indet");
+  const double major = file.doubles_attribute("/", "schema_version", 2)[0];
+  if (major != static_cast<double>(kSchemaMajor)) {
+    fail(fmt::format("has version {} of the format; this program reads version {}", major, kSchemaMajor));
+  }
+  if (!file.has_attribute("/", "complete") || file.integer_attribute("/", "complete") != 1) {
+    fail("was not written to its end");
+  }
+  return file;
+}
+
+Packing read_packing(const std::filesystem::path& path) { return read_packing_part(open_indet_file(path)); }
+
+Digests compute_digests(const std::filesystem::path& path) {
+  const Hdf5File file = open_indet_file(path);
+  Digests digests;
+  digests.content = content_digest(file);
+  digests.stored_content = file.string_attribute("/", "content_sha256");
+  if (file.has("/ranges")) {
+    digests.ranges = file.sha256({"/extremal", "/ranges"});
+    digests.stored_ranges = file.string_attribute("/ranges", "sha256");
+  }
+  return digests;
+}
+
+}  // namespace indet

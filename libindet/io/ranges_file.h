@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "indet/io/packing_file.h"
+#include "indet/range/force_ranges.h"
+
+namespace indet {
+
+/// Writes a packing and its force ranges into one file (docs/file-format.md), so that the file can be checked
+/// and drawn without any other. `ranges.seconds` joins the timings of `provenance`. Throws like
+/// write_packing; the rows of the tables must be the contacts of the packing.
+void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
+                  const Provenance& provenance);
+
+/// Reads the force ranges of a file. Throws InputError if it has none, or if a table has not the size of the
+/// packing or points to a state that is not there.
+ForceRanges read_ranges(const std::filesystem::path& path);
+
+/// True if the file, which must be one of indet, holds force ranges.
+bool file_has_ranges(const std::filesystem::path& path);
+
+}  // namespace indet

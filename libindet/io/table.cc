@@ -1,0 +1,219 @@
+#include "indet/io/table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "indet/base/error.h"
+
+namespace indet {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\f\v";
+
+template <class T>
+bool parse_whole(std::string_view text, T* value) {
+  text = trimmed(text);
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return false;
+  }
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, *value);
+  return error == std::errc() && stop == end && !text.empty();
+}
+
+/// The part of a line before a comment. A # within quotes does not begin one.
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == '#' && !quoted) return line.substr(0, i);
+  }
+  return line;
+}
+
+std::vector<std::string_view> split_fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  bool quoted = false;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') quoted = !quoted;
+    if (i < line.size() && (line[i] != ',' || quoted)) continue;
+    std::string_view field = trimmed(line.substr(start, i - start));
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+      field = trimmed(field.substr(1, field.size() - 2));
+    }
+    fields.push_back(field);
+    start = i + 1;
+  }
+  return fields;
+}
+
+}  // namespace
+
+std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) {
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status)) {
+    throw InputError(fmt::format("{}: is a folder, not a file", path.string()));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    throw InputError(
+        fmt::format("{}: cannot be read ({})", path.string(), std::generic_category().message(errno)));
+  }
+  auto text =
+      std::make_shared<std::string>(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  if (stream.bad()) throw InputError(fmt::format("{}: reading failed", path.string()));
+  if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF")) {
+    throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", path.string()));
+  }
+  if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
+  return text;
+}
+
+bool parse_number(std::string_view text, double* value) { return parse_whole(text, value); }
+bool parse_number(std::string_view text, std::int64_t* value) { return parse_whole(text, value); }
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> split_words(std::string_view line) {
+  std::vector<std::string_view> words;
+  std::size_t start = line.find_first_not_of(kBlank);
+  while (start != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kBlank, start), line.size());
+    words.push_back(line.substr(start, end - start));
+    start = line.find_first_not_of(kBlank, end);
+  }
+  return words;
+}
+
+bool LineReader::next(std::string_view* line) {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find('\n');
+  *line = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  if (line->ends_with('\r')) line->remove_suffix(1);
+  ++line_number_;
+  return true;
+}
+
+Table::Table(std::string source, std::shared_ptr<const std::string> text, int header_line,
+             std::vector<std::string> columns)
+    : source_(std::move(source)),
+      text_(std::move(text)),
+      header_line_(header_line),
+      columns_(std::move(columns)) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].empty()) {
+      throw InputError(fmt::format("{}:{}: column {} has no name", source_, header_line_, i + 1));
+    }
+    if (!index_.emplace(columns_[i], i).second) {
+      throw InputError(fmt::format("{}:{}: column {} is given twice", source_, header_line_, columns_[i]));
+    }
+  }
+}
+
+void Table::add_row(int line, std::vector<std::string_view> fields) {
+  if (fields.size() != columns_.size()) {
+    throw InputError(fmt::format("{}:{}: {} fields, but there are {} columns ({})", source_, line,
+                                 fields.size(), columns_.size(), fmt::join(columns_, ", ")));
+  }
+  lines_.push_back(line);
+  fields_.insert(fields_.end(), fields.begin(), fields.end());
+}
+
+void Table::require(const std::vector<std::string>& columns) const {
+  for (const std::string& column : columns) {
+    if (has(column)) continue;
+    throw InputError(fmt::format("{}:{}: column {} is missing; the file has {}", source_, header_line_,
+                                 column, fmt::join(columns_, ", ")));
+  }
+}
+
+void Table::allow_only(const std::vector<std::string>& columns) const {
+  for (const std::string& column : columns_) {
+    if (std::find(columns.begin(), columns.end(), column) != columns.end()) continue;
+    throw InputError(fmt::format("{}:{}: column {} is unknown; the known ones are {}", source_, header_line_,
+                                 column, fmt::join(columns, ", ")));
+  }
+}
+
+std::string_view Table::text(int row, std::string_view column) const {
+  return fields_[static_cast<std::size_t>(row) * columns_.size() + index_.at(column)];
+}
+
+bool Table::is_empty(int row, std::string_view column) const {
+  return !has(column) || text(row, column).empty();
+}
+
+double Table::number(int row, std::string_view column) const {
+  const std::string_view field = text(row, column);
+  double value = 0;
+  if (parse_number(field, &value)) return value;
+  if (field.empty()) fail(row, column, "the field is empty");
+  fail(row, column, fmt::format("\"{}\" is not a number (or outside the range of a double)", field));
+}
+
+double Table::number_or(int row, std::string_view column, double fallback) const {
+  return is_empty(row, column) ? fallback : number(row, column);
+}
+
+std::int32_t Table::integer(int row, std::string_view column) const {
+  const std::string_view field = text(row, column);
+  std::int64_t value = 0;
+  if (!parse_number(field, &value)) fail(row, column, fmt::format("\"{}\" is not a whole number", field));
+  if (value < std::numeric_limits<std::int32_t>::min() || value > std::numeric_limits<std::int32_t>::max()) {
+    fail(row, column, fmt::format("{} does not fit into 32 bits", value));
+  }
+  return static_cast<std::int32_t>(value);
+}
+
+void Table::fail(int row, const std::string& reason) const {
+  throw InputError(fmt::format("{}:{}: {}", source_, line(row), reason));
+}
+
+void Table::fail(int row, std::string_view column, const std::string& reason) const {
+  throw InputError(fmt::format("{}:{}: column {}: {}", source_, line(row), column, reason));
+}
+
+Table read_csv(const std::filesystem::path& path) {
+  const auto text = read_text(path);
+  LineReader lines(*text);
+  std::string_view line;
+  const auto next_row = [&] {
+    while (lines.next(&line)) {
+      line = without_comment(line);
+      if (!trimmed(line).empty()) return true;
+    }
+    return false;
+  };
+  if (!next_row()) throw InputError(fmt::format("{}: the file is empty; it needs a header", path.string()));
+  std::vector<std::string> columns;
+  for (const std::string_view field : split_fields(line)) columns.emplace_back(field);
+  double value = 0;
+  if (parse_number(columns.front(), &value)) {
+    throw InputError(fmt::format("{}:{}: the first line must name the columns, but begins with the number {}",
+                                 path.string(), lines.line_number(), columns.front()));
+  }
+  if (columns.size() == 1 && line.find_first_of(";\t") != std::string_view::npos) {
+    throw InputError(
+        fmt::format("{}:{}: fields must be separated by commas", path.string(), lines.line_number()));
+  }
+  Table table(path.string(), text, lines.line_number(), std::move(columns));
+  while (next_row()) table.add_row(lines.line_number(), split_fields(line));
+  return table;
+}
+
+}  // namespace indet

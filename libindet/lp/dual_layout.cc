@@ -1,0 +1,77 @@
+#include <vector>
+
+#include "indet/lp/layout.h"
+
+namespace indet {
+namespace {
+
+/// min offset·y over slopeᵀ y = −g, y ≥ 0: a row a dimension, a column an inequality. y are the multipliers
+/// of the inequalities. At a vertex the d active columns are basic; a feasible vertex is dual feasible here.
+class DualLayout : public Layout {
+ public:
+  explicit DualLayout(const FeasibleSet& set) : set_(set) {}
+
+  std::unique_ptr<GlpkProblem> build() const override {
+    auto problem = std::make_unique<GlpkProblem>(set_.dim(), set_.inequalities(), false);
+    std::vector<GlpkProblem::Entry> entries;
+    for (int k = 0; k < set_.inequalities(); ++k) {
+      problem->bound_column(k, GlpkProblem::Bound::kLower, 0);
+      problem->set_cost(k, set_.offset[k]);
+      for (int j = 0; j < set_.dim(); ++j) {
+        if (set_.slope(k, j) != 0) entries.push_back({j, k, set_.slope(k, j)});
+      }
+    }
+    for (int j = 0; j < set_.dim(); ++j) problem->bound_row(j, GlpkProblem::Bound::kFixed, 0);
+    problem->load(entries);
+    return problem;
+  }
+
+  void set_objective(GlpkProblem& problem, const Objective& objective) override {
+    for (int j = 0; j < set_.dim(); ++j)
+      problem.bound_row(j, GlpkProblem::Bound::kFixed, -objective.along_z[j]);
+  }
+
+  void set_start(GlpkProblem& problem, std::span<const int> basis) const override {
+    for (int j = 0; j < set_.dim(); ++j) problem.set_row_status(j, GlpkProblem::Status::kNonbasic);
+    for (int k = 0; k < set_.inequalities(); ++k)
+      problem.set_column_status(k, GlpkProblem::Status::kNonbasic);
+    for (const int k : basis) problem.set_column_status(k, GlpkProblem::Status::kBasic);
+  }
+
+  void hold(GlpkProblem& problem, std::span<const int> held, bool on) const override {
+    const auto bound = on ? GlpkProblem::Bound::kFree : GlpkProblem::Bound::kLower;
+    for (const int k : held) problem.bound_column(k, bound, 0);
+  }
+
+  Basis read_basis(const GlpkProblem& problem) const override {
+    Basis basis;
+    for (int k = 0; k < set_.inequalities(); ++k) {
+      if (problem.is_column_basic(k)) basis.push_back(k);
+    }
+    return basis;
+  }
+
+  GlpkProblem::Method warm_method() const override { return GlpkProblem::Method::kDual; }
+
+  LpStatus interpret(GlpkProblem::Result result) const override {
+    switch (result) {
+      case GlpkProblem::Result::kOptimal:
+        return LpStatus::kOptimal;
+      case GlpkProblem::Result::kInfeasible:
+        return LpStatus::kUnbounded;
+      case GlpkProblem::Result::kUnbounded:
+        return LpStatus::kInfeasible;
+      default:
+        return LpStatus::kFailed;
+    }
+  }
+
+ private:
+  const FeasibleSet& set_;
+};
+
+}  // namespace
+
+std::unique_ptr<Layout> make_dual_layout(const FeasibleSet& set) { return std::make_unique<DualLayout>(set); }
+
+}  // namespace indet

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "indet/lp/feasible_set.h"
+#include "indet/lp/glpk_problem.h"
+#include "indet/lp/lp_solver.h"
+
+namespace indet {
+
+/// How one formulation lays a FeasibleSet out in GLPK, and how a Basis reads there. One file a formulation.
+class Layout {
+ public:
+  virtual ~Layout() = default;
+  /// A new problem holding the constraints; the objective is zero.
+  virtual std::unique_ptr<GlpkProblem> build() const = 0;
+  virtual void set_objective(GlpkProblem& problem, const Objective& objective) = 0;
+  virtual void set_start(GlpkProblem& problem, std::span<const int> basis) const = 0;
+  /// Holds x_k = 0 for all k in `held`, or lets them be ≥ 0 again.
+  virtual void hold(GlpkProblem& problem, std::span<const int> held, bool on) const = 0;
+  /// The active inequalities of the optimal basis found.
+  virtual Basis read_basis(const GlpkProblem& problem) const = 0;
+  /// The simplex for which a feasible vertex is a feasible start.
+  virtual GlpkProblem::Method warm_method() const = 0;
+  /// What GLPK's result says about the FeasibleSet.
+  virtual LpStatus interpret(GlpkProblem::Result result) const = 0;
+};
+
+std::unique_ptr<Layout> make_null_space_layout(const FeasibleSet& set);
+std::unique_ptr<Layout> make_dual_layout(const FeasibleSet& set);
+std::unique_ptr<Layout> make_edge_layout(const FeasibleSet& set);
+
+}  // namespace indet

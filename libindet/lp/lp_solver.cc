@@ -1,0 +1,107 @@
+#include "indet/lp/lp_solver.h"
+
+#include "indet/base/error.h"
+#include "indet/lp/layout.h"
+
+namespace indet {
+namespace {
+
+std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulation) {
+  switch (formulation) {
+    case Formulation::kNullSpace:
+      return make_null_space_layout(set);
+    case Formulation::kDual:
+      return make_dual_layout(set);
+    case Formulation::kEdge:
+      return make_edge_layout(set);
+  }
+  throw LibraryError("unknown formulation");
+}
+
+GlpkProblem::Method other(GlpkProblem::Method method) {
+  return method == GlpkProblem::Method::kPrimal ? GlpkProblem::Method::kDual : GlpkProblem::Method::kPrimal;
+}
+
+/// The rungs of the ladder.
+enum Rung : int { kWarm, kWarmOther, kCold, kPresolved, kRungs };
+
+}  // namespace
+
+const char* to_string(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::kNullSpace:
+      return "nullspace";
+    case Formulation::kDual:
+      return "dual";
+    case Formulation::kEdge:
+      return "edge";
+  }
+  return "?";
+}
+
+struct LpSolver::Impl {
+  Impl(const FeasibleSet& s, Formulation formulation, const LpOptions& o)
+      : set(s), options(o), layout(make_layout(s, formulation)) {}
+
+  const FeasibleSet& set;
+  LpOptions options;
+  std::unique_ptr<Layout> layout;
+  std::unique_ptr<GlpkProblem> problem;
+
+  GlpkProblem::Settings settings(int rung) const {
+    GlpkProblem::Settings result;
+    result.method = rung == kWarmOther ? other(layout->warm_method()) : layout->warm_method();
+    result.feasibility = options.feasibility;
+    result.optimality = options.optimality;
+    result.iteration_limit = options.iteration_limit;
+    result.time_limit = options.time_limit;
+    result.presolve = rung == kPresolved;
+    return result;
+  }
+
+  /// One rung; kFailed if it brings nothing.
+  LpStatus attempt(int rung, const Objective& objective, const Basis& start, std::span<const int> held,
+                   LpAnswer& answer) {
+    if (!problem || !problem->is_alive()) problem = layout->build();
+    layout->set_objective(*problem, objective);
+    layout->hold(*problem, held, true);
+    if (rung == kWarm || rung == kWarmOther) {
+      layout->set_start(*problem, start);
+    } else {
+      problem->advanced_basis();
+    }
+    if (rung == kPresolved) problem->scale(true);
+    const GlpkProblem::Result result = problem->solve(settings(rung));
+    answer.pivots += problem->pivots();
+    answer.basis = layout->read_basis(*problem);
+    if (rung == kPresolved) problem->scale(false);
+    layout->hold(*problem, held, false);
+    const LpStatus status = layout->interpret(result);
+    const bool complete = static_cast<int>(answer.basis.size()) == set.dim();
+    return status == LpStatus::kOptimal && !complete ? LpStatus::kFailed : status;
+  }
+};
+
+LpSolver::LpSolver(const FeasibleSet& set, Formulation formulation, const LpOptions& options)
+    : impl_(std::make_unique<Impl>(set, formulation, options)) {}
+
+LpSolver::~LpSolver() = default;
+
+LpAnswer LpSolver::maximise(const Objective& objective, const Basis& start, std::span<const int> held) {
+  LpAnswer answer;
+  const bool has_start = static_cast<int>(start.size()) == impl_->set.dim() && !start.empty();
+  for (int rung = has_start ? kWarm : kCold; rung < kRungs; ++rung) {
+    ++answer.attempts;
+    try {
+      answer.status = impl_->attempt(rung, objective, start, held, answer);
+    } catch (const GlpkAborted&) {
+      impl_->problem.reset();
+      answer.status = LpStatus::kFailed;
+    }
+    if (answer.status != LpStatus::kFailed) break;
+  }
+  if (answer.status != LpStatus::kOptimal) answer.basis.clear();
+  return answer;
+}
+
+}  // namespace indet

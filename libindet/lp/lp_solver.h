@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "indet/base/tolerances.h"
+#include "indet/lp/feasible_set.h"
+
+namespace indet {
+
+/// How a linear program over a FeasibleSet is given to the simplex method (docs/theory.md). All three take
+/// and return the same warm start, a Basis.
+enum class Formulation : std::uint8_t {
+  kNullSpace,  ///< the explicit form: K rows × d free dense columns; primal simplex
+  kDual,       ///< its dual: d rows × K columns, the objective is the right-hand side; dual simplex
+  kEdge        ///< the implicit form: r sparse equations × K columns ≥ 0; primal simplex
+};
+
+const char* to_string(Formulation formulation);
+
+struct LpOptions {
+  double feasibility = tolerance::kLpFeasibility;  ///< GLPK's tol_bnd
+  double optimality = tolerance::kLpOptimality;    ///< GLPK's tol_dj
+  int iteration_limit = 100000;                    ///< pivots a solve
+  double time_limit = 600;                         ///< seconds a solve
+};
+
+enum class LpStatus : std::uint8_t { kOptimal, kUnbounded, kInfeasible, kFailed };
+
+/// The solver's proposal. Values are never taken from it: they are recomputed from the basis.
+struct LpAnswer {
+  LpStatus status = LpStatus::kFailed;
+  Basis basis;  ///< d inequalities, if optimal
+  std::int64_t pivots = 0;
+  int attempts = 0;  ///< rungs of the ladder that were tried
+};
+
+/// Maximises linear objectives over one FeasibleSet by GLPK, from given start vertices. Stateful only for
+/// speed: an answer depends on the arguments alone. GLPK keeps its state per thread, so a solver must be
+/// created, used and destroyed on one thread.
+///
+/// Ladder when a solve fails: the formulation's own simplex from the start vertex; the other simplex from
+/// there; from scratch with GLPK's advanced basis; presolved and rescaled; then kFailed. A failed assertion
+/// inside GLPK counts as a failed rung; the problem is rebuilt.
+class LpSolver {
+ public:
+  /// Precondition: for kEdge the set has its implicit description. `set` must outlive the solver.
+  LpSolver(const FeasibleSet& set, Formulation formulation, const LpOptions& options = {});
+  ~LpSolver();
+  LpSolver(const LpSolver&) = delete;
+  LpSolver& operator=(const LpSolver&) = delete;
+
+  /// Maximises the objective, subject to x_k = 0 for k in `held`. `start`: a feasible vertex (containing
+  /// `held` for a feasible start), or empty for a cold start.
+  LpAnswer maximise(const Objective& objective, const Basis& start, std::span<const int> held = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace indet

@@ -1,0 +1,76 @@
+#include <vector>
+
+#include "indet/lp/layout.h"
+
+namespace indet {
+namespace {
+
+/// max g·z over slope · z ≥ −offset: a row an inequality, a free column a dimension.
+/// At a vertex the d active rows are nonbasic at their bound, and all columns are basic.
+class NullSpaceLayout : public Layout {
+ public:
+  explicit NullSpaceLayout(const FeasibleSet& set) : set_(set) {}
+
+  std::unique_ptr<GlpkProblem> build() const override {
+    auto problem = std::make_unique<GlpkProblem>(set_.inequalities(), set_.dim(), true);
+    std::vector<GlpkProblem::Entry> entries;
+    for (int k = 0; k < set_.inequalities(); ++k) {
+      problem->bound_row(k, GlpkProblem::Bound::kLower, -set_.offset[k]);
+      for (int j = 0; j < set_.dim(); ++j) {
+        if (set_.slope(k, j) != 0) entries.push_back({k, j, set_.slope(k, j)});
+      }
+    }
+    for (int j = 0; j < set_.dim(); ++j) problem->bound_column(j, GlpkProblem::Bound::kFree, 0);
+    problem->load(entries);
+    return problem;
+  }
+
+  void set_objective(GlpkProblem& problem, const Objective& objective) override {
+    for (int j = 0; j < set_.dim(); ++j) problem.set_cost(j, objective.along_z[j]);
+  }
+
+  void set_start(GlpkProblem& problem, std::span<const int> basis) const override {
+    for (int j = 0; j < set_.dim(); ++j) problem.set_column_status(j, GlpkProblem::Status::kBasic);
+    for (int k = 0; k < set_.inequalities(); ++k) problem.set_row_status(k, GlpkProblem::Status::kBasic);
+    for (const int k : basis) problem.set_row_status(k, GlpkProblem::Status::kNonbasic);
+  }
+
+  void hold(GlpkProblem& problem, std::span<const int> held, bool on) const override {
+    const auto bound = on ? GlpkProblem::Bound::kFixed : GlpkProblem::Bound::kLower;
+    for (const int k : held) problem.bound_row(k, bound, -set_.offset[k]);
+  }
+
+  Basis read_basis(const GlpkProblem& problem) const override {
+    Basis basis;
+    for (int k = 0; k < set_.inequalities(); ++k) {
+      if (!problem.is_row_basic(k)) basis.push_back(k);
+    }
+    return basis;
+  }
+
+  GlpkProblem::Method warm_method() const override { return GlpkProblem::Method::kPrimal; }
+
+  LpStatus interpret(GlpkProblem::Result result) const override {
+    switch (result) {
+      case GlpkProblem::Result::kOptimal:
+        return LpStatus::kOptimal;
+      case GlpkProblem::Result::kInfeasible:
+        return LpStatus::kInfeasible;
+      case GlpkProblem::Result::kUnbounded:
+        return LpStatus::kUnbounded;
+      default:
+        return LpStatus::kFailed;
+    }
+  }
+
+ private:
+  const FeasibleSet& set_;
+};
+
+}  // namespace
+
+std::unique_ptr<Layout> make_null_space_layout(const FeasibleSet& set) {
+  return std::make_unique<NullSpaceLayout>(set);
+}
+
+}  // namespace indet

@@ -1,0 +1,63 @@
+#include "indet/lp/vertex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "indet/base/error.h"
+#include "indet/base/tolerances.h"
+
+namespace indet {
+
+Objective make_objective(const FeasibleSet& set, std::vector<std::pair<int, double>> on_edges) {
+  Objective objective;
+  objective.along_z = Eigen::VectorXd::Zero(set.dim());
+  for (const auto& [index, coefficient] : on_edges)
+    objective.along_z += coefficient * set.slope.row(index).transpose();
+  objective.on_edges = std::move(on_edges);
+  return objective;
+}
+
+double Vertex::infeasibility() const { return x.size() == 0 ? 0 : std::max(0.0, -x.minCoeff()); }
+
+Eigen::VectorXd Vertex::multipliers(const Eigen::Ref<const Eigen::VectorXd>& g) const {
+  return -(inverse.transpose() * g);
+}
+
+Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
+  Vertex vertex;
+  vertex.basis = basis;
+  const int d = set.dim();
+  if (static_cast<int>(basis.size()) != d)
+    throw LibraryError("a vertex needs as many active inequalities as dimensions");
+  const Eigen::MatrixXd active = set.slope(basis, Eigen::all);
+  const Eigen::VectorXd offset = set.offset(basis);
+  if (d > 0) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(active);
+    vertex.z = lu.solve(-offset);
+    vertex.z += lu.solve(-offset - active * vertex.z);
+    vertex.inverse = lu.inverse();
+    if (!vertex.z.allFinite() || !vertex.inverse.allFinite()) {
+      throw LibraryError("the active inequalities of a vertex are not independent");
+    }
+  } else {
+    vertex.z.resize(0);
+    vertex.inverse.resize(0, 0);
+  }
+  vertex.x = set.offset + set.slope * vertex.z;
+  for (const int k : basis) vertex.x[k] = 0;
+  return vertex;
+}
+
+double edge_length(const FeasibleSet& set, const Vertex& vertex, int k) {
+  Eigen::VectorXd direction = set.slope * vertex.inverse.col(k);
+  for (const int active : vertex.basis) direction[active] = 0;
+  double length = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    if (direction[i] < -tolerance::kReducedCost)
+      length = std::min(length, std::max(0.0, vertex.x[i]) / -direction[i]);
+  }
+  return length;
+}
+
+}  // namespace indet

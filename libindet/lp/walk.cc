@@ -1,0 +1,76 @@
+#include "indet/lp/walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "indet/base/error.h"
+
+namespace indet {
+namespace {
+
+/// Rates below this, relative to the length of the direction, are rounding.
+constexpr double kStill = 1e-11;
+
+struct Stop {
+  int inequality = -1;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// The first inequality that the ray x + s·rate meets; among (nearly) equal distances the steepest, for
+/// stability.
+Stop first_stop(const Eigen::VectorXd& x, const Eigen::VectorXd& rate, const std::vector<bool>& active) {
+  Stop stop;
+  const double still = kStill * std::max(1.0, rate.lpNorm<Eigen::Infinity>());
+  for (Eigen::Index i = 0; i < rate.size(); ++i) {
+    if (active[static_cast<std::size_t>(i)] || rate[i] >= -still) continue;
+    const double distance = std::max(0.0, x[i]) / -rate[i];
+    const bool nearer = distance < stop.distance * (1 - 1e-12);
+    const bool steeper = distance <= stop.distance && rate[i] < rate[std::max(0, stop.inequality)];
+    if (stop.inequality < 0 || nearer || steeper) stop = {static_cast<int>(i), distance};
+  }
+  return stop;
+}
+
+/// Orthonormal basis of the directions in `free` (orthonormal columns) that are orthogonal to `row`.
+Eigen::MatrixXd without(const Eigen::MatrixXd& free, const Eigen::VectorXd& row) {
+  Eigen::VectorXd reflector = free.transpose() * row;
+  const double length = reflector.norm();
+  reflector[0] += std::copysign(length, reflector[0]);
+  reflector.normalize();
+  Eigen::MatrixXd reflected = free;
+  reflected.noalias() -= 2 * (free * reflector) * reflector.transpose();
+  return reflected.rightCols(free.cols() - 1);
+}
+
+}  // namespace
+
+Basis walk_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const Eigen::VectorXd& guide) {
+  const int d = set.dim();
+  Basis basis;
+  std::vector<bool> active(static_cast<std::size_t>(set.inequalities()), false);
+  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(d, d);
+  Eigen::VectorXd x = set.offset + set.slope * z;
+  while (free.cols() > 0) {
+    const Eigen::VectorXd projected = free.transpose() * guide;
+    const bool guided = projected.norm() > kStill * std::max(1.0, guide.norm());
+    Eigen::VectorXd direction =
+        guided ? Eigen::VectorXd(free * projected.normalized()) : Eigen::VectorXd(free.col(0));
+    Eigen::VectorXd rate = set.slope * direction;
+    Stop stop = first_stop(x, rate, active);
+    if (stop.inequality < 0) {  // nothing in that way: the set is unbounded there; turn round
+      rate = -rate;
+      stop = first_stop(x, rate, active);
+    }
+    if (stop.inequality < 0) throw LibraryError("the feasible set contains a line");
+    x += stop.distance * rate;
+    x[stop.inequality] = 0;
+    active[static_cast<std::size_t>(stop.inequality)] = true;
+    basis.push_back(stop.inequality);
+    free = without(free, set.slope.row(stop.inequality).transpose());
+  }
+  std::sort(basis.begin(), basis.end());
+  return basis;
+}
+
+}  // namespace indet

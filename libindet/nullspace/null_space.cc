@@ -1,0 +1,107 @@
+#include "indet/nullspace/null_space.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "indet/base/tolerances.h"
+#include "indet/nullspace/sparse_qr.h"
+
+namespace indet {
+namespace {
+
+/// Above this many unknowns a dense singular value decomposition takes minutes; the doubt is then reported,
+/// not resolved.
+constexpr Eigen::Index kDenseLimit = 2500;
+
+/// ‖c‖₂ ≤ √(‖c‖₁ ‖c‖_∞): the scale against which singular values count as zero.
+double norm_bound(const Eigen::SparseMatrix<double>& matrix) {
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(matrix.rows());
+  double columns = 0;
+  for (Eigen::Index j = 0; j < matrix.outerSize(); ++j) {
+    double column = 0;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, j); it; ++it) {
+      column += std::abs(it.value());
+      rows[it.row()] += std::abs(it.value());
+    }
+    columns = std::max(columns, column);
+  }
+  const double bound = rows.size() > 0 ? std::sqrt(rows.maxCoeff() * columns) : 0;
+  return bound > 0 ? bound : 1;
+}
+
+/// Replaces the sparse result by one from the singular values.
+void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& wrench,
+                               double scale, NullSpace& result) {
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(matrix),
+                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::VectorXd& sigma = svd.singularValues();
+  result.singular_values = sigma;
+  const auto accepted = [&](double value) { return value > tolerance::kRankReject * scale; };
+  result.rank = static_cast<int>(std::count_if(sigma.begin(), sigma.end(), accepted));
+  result.nullity = static_cast<int>(matrix.cols()) - result.rank;
+  result.basis = svd.matrixV().rightCols(result.nullity);
+  result.smallest_accepted =
+      result.rank > 0 ? sigma[result.rank - 1] : std::numeric_limits<double>::infinity();
+  result.largest_rejected = result.rank < sigma.size() ? sigma[result.rank] : 0;
+  result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale;
+
+  const Eigen::VectorXd projected = svd.matrixU().leftCols(result.rank).transpose() * -wrench;
+  result.particular = svd.matrixV().leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rows(Eigen::MatrixXd(matrix.transpose()));
+  result.independent_rows.assign(rows.colsPermutation().indices().begin(),
+                                 rows.colsPermutation().indices().begin() + result.rank);
+  std::sort(result.independent_rows.begin(), result.independent_rows.end());
+}
+
+}  // namespace
+
+NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& wrench) {
+  NullSpace result;
+  if (matrix.rows() == 0 || matrix.cols() == 0) {
+    result.nullity = static_cast<int>(matrix.cols());
+    result.basis = Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols());
+    result.particular = Eigen::VectorXd::Zero(matrix.cols());
+    result.smallest_accepted = std::numeric_limits<double>::infinity();
+    if (wrench.size() > 0 && wrench.cwiseAbs().maxCoeff() > 0) result.unbalanced = wrench;
+    return result;
+  }
+  const double scale = norm_bound(matrix);
+  const SparseQr qr(matrix.transpose(), tolerance::kRankReject * scale);
+  result.rank = qr.rank();
+  result.nullity = static_cast<int>(matrix.cols()) - result.rank;
+  result.smallest_accepted = qr.smallest_accepted();
+  result.largest_rejected = qr.dropped_norm();
+  result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
+                     result.largest_rejected > tolerance::kRankReject * scale;
+  if (result.ambiguous && std::max(matrix.rows(), matrix.cols()) <= kDenseLimit) {
+    decide_by_singular_values(matrix, wrench, scale, result);
+  } else {
+    result.basis = qr.left_kernel();
+    result.independent_rows = qr.independent_columns();
+    result.particular = qr.solve_transposed(-wrench);
+    result.particular += qr.solve_transposed(-wrench - matrix * result.particular);  // one step of refinement
+    result.particular -= result.basis * (result.basis.transpose() * result.particular);
+  }
+
+  // The residual that is left is orthogonal to the range of c only in part: project it onto the left kernel.
+  const Eigen::VectorXd residual = wrench + matrix * result.particular;
+  const double allowed =
+      tolerance::kPrimalResidual * std::max(1.0, result.particular.lpNorm<Eigen::Infinity>());
+  if (residual.lpNorm<Eigen::Infinity>() > allowed && result.rank < matrix.rows()) {
+    const Eigen::MatrixXd left = SparseQr(matrix, tolerance::kRankReject * scale).left_kernel();
+    const Eigen::VectorXd unbalanced = left * (left.transpose() * wrench);
+    if (unbalanced.lpNorm<Eigen::Infinity>() > tolerance::kPrimalResidual) result.unbalanced = unbalanced;
+  }
+  return result;
+}
+
+Eigen::VectorXd motion_from_contacts(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& q) {
+  if (matrix.rows() == 0 || matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
+  const SparseQr qr(matrix.transpose(), tolerance::kRankReject * norm_bound(matrix));
+  return qr.solve(q);
+}
+
+}  // namespace indet

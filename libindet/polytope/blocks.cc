@@ -1,0 +1,115 @@
+#include "indet/polytope/blocks.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "indet/base/tolerances.h"
+#include "indet/nullspace/sparse_qr.h"
+
+namespace indet {
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(int size) : parent_(static_cast<std::size_t>(size)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int find(int i) {
+    while (parent(i) != i) i = parent(i) = parent(parent(i));
+    return i;
+  }
+  void join(int i, int j) { parent(find(i)) = find(j); }
+
+ private:
+  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
+  std::vector<int> parent_;
+};
+
+/// Columns of the edge matrix of one block, with as many independent rows as it has.
+void add_implicit_description(const ContactMatrix& contacts, PolytopeBlock& block) {
+  Eigen::SparseMatrix<double> columns(contacts.equations(), static_cast<Eigen::Index>(block.edges.size()));
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (std::size_t k = 0; k < block.edges.size(); ++k) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(contacts.edge_matrix, block.edges[k]); it; ++it) {
+      triplets.emplace_back(static_cast<int>(it.row()), static_cast<int>(k), it.value());
+    }
+  }
+  columns.setFromTriplets(triplets.begin(), triplets.end());
+  const std::vector<int> rows = SparseQr(columns.transpose(), tolerance::kRankReject).independent_columns();
+  std::vector<int> number(static_cast<std::size_t>(contacts.equations()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    number[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> kept;
+  for (const auto& entry : triplets) {
+    const int row = number[static_cast<std::size_t>(entry.row())];
+    if (row >= 0) kept.emplace_back(row, entry.col(), entry.value());
+  }
+  block.set.equations.resize(static_cast<Eigen::Index>(rows.size()), columns.cols());
+  block.set.equations.setFromTriplets(kept.begin(), kept.end());
+  block.set.right_hand_side = block.set.equations * block.set.offset;
+}
+
+}  // namespace
+
+std::vector<PolytopeBlock> split_into_blocks(const ContactMatrix& contacts, const FeasibleSet& whole,
+                                             const Vertex& vertex) {
+  const int d = whole.dim();
+  const int count = whole.inequalities();
+  const Eigen::MatrixXd D = whole.slope * vertex.inverse;
+  const double zero = tolerance::kReducedCost;
+
+  // Elements 0 … d − 1: coordinates; then one element an edge.
+  DisjointSets sets(d + count);
+  std::vector<bool> moves(static_cast<std::size_t>(count), false);
+  for (int j = 0; j < d; ++j) {
+    for (int k = 0; k < count; ++k) {
+      if (std::abs(D(k, j)) <= zero) continue;
+      sets.join(d + k, j);
+      moves[static_cast<std::size_t>(k)] = true;
+    }
+  }
+  for (int k = 1; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (contacts.edges[i].contact == contacts.edges[i - 1].contact && moves[i] && moves[i - 1])
+      sets.join(d + k, d + k - 1);
+  }
+
+  std::map<int, PolytopeBlock> by_root;
+  std::map<int, std::vector<int>> coordinates;
+  for (int k = 0; k < count; ++k) {
+    if (moves[static_cast<std::size_t>(k)]) by_root[sets.find(d + k)].edges.push_back(k);
+  }
+  for (int j = 0; j < d; ++j) coordinates[sets.find(j)].push_back(j);
+
+  std::vector<PolytopeBlock> blocks;
+  for (auto& [root, block] : by_root) {
+    const std::vector<int>& columns = coordinates[root];
+    if (static_cast<int>(columns.size()) == d) {
+      block.set.slope = whole.slope(block.edges, Eigen::all);
+    } else {
+      const Eigen::MatrixXd part = D(block.edges, columns);
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(part);
+      block.set.slope = qr.householderQ() * Eigen::MatrixXd::Identity(part.rows(), part.cols());
+    }
+    block.set.offset = whole.offset(block.edges);
+    if (static_cast<int>(columns.size()) != d) {
+      // Any point of the block serves as origin; the lightest vertex is one.
+      block.set.offset = vertex.x(block.edges);
+    }
+    for (const int j : columns) {
+      const int active = vertex.basis[static_cast<std::size_t>(j)];
+      const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), active);
+      block.lightest.push_back(static_cast<int>(local - block.edges.begin()));
+    }
+    std::sort(block.lightest.begin(), block.lightest.end());
+    add_implicit_description(contacts, block);
+    blocks.push_back(std::move(block));
+  }
+  std::sort(blocks.begin(), blocks.end(),
+            [](const PolytopeBlock& a, const PolytopeBlock& b) { return a.edges.front() < b.edges.front(); });
+  return blocks;
+}
+
+}  // namespace indet

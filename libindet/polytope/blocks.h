@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "indet/contact/contact_matrix.h"
+#include "indet/lp/vertex.h"
+#include "indet/polytope/force_polytope.h"
+
+namespace indet {
+
+/// Splits a full-dimensional polytope into its independent blocks.
+///
+/// With the active inequalities N of a vertex as coordinates, x = x_vertex + D x_N, D = S S_N⁻¹; two edges
+/// are coupled when a chain of non-zeros of D, or a common contact, joins them. The result does not depend on
+/// the vertex. Edges whose row of D vanishes are determined and belong to no block.
+std::vector<PolytopeBlock> split_into_blocks(const ContactMatrix& contacts, const FeasibleSet& whole,
+                                             const Vertex& vertex);
+
+}  // namespace indet

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "indet/contact/contact_matrix.h"
+#include "indet/lp/feasible_set.h"
+#include "indet/lp/lp_solver.h"
+#include "indet/nullspace/null_space.h"
+#include "indet/packing/packing.h"
+
+namespace indet {
+
+/// What the polytope of admissible contact states F [19] of a packing is.
+enum class PolytopeStatus : std::uint8_t {
+  kBounded,    ///< More than one state, all forces limited.
+  kUnbounded,  ///< Some force can grow without limit; `ray` shows how.
+  kPoint,      ///< One state: no indeterminacy.
+  kEmpty       ///< No state: the packing cannot stand; `motion` shows which disks move.
+};
+const char* to_string(PolytopeStatus status);
+
+/// An independent part of F: the strengths x of some contacts' edges, coupled to each other and to no others.
+/// F is the product of its blocks and of the edges that are determined.
+struct PolytopeBlock {
+  FeasibleSet set;         ///< full-dimensional; the implicit description included
+  std::vector<int> edges;  ///< local index of x → index into ForcePolytope::contacts.edges; ascending
+  Basis lightest;          ///< the vertex of smallest total normal force
+};
+
+/// The polytope F = {F1 + Z z ∈ K} [19] of a packing, in dimensionless form.
+///
+/// Found in three steps. (1) Linear algebra: if some part of the load is outside the range of c, no contact
+/// force balances it. (2) The linear program "maximise t with every x ≥ t" gives a strictly interior point (t
+/// > 0), a Farkas certificate that F is empty (t < 0), or multipliers that name edges which are closed
+/// everywhere in F (t = 0): contacts that must slide or transmit nothing. Those edges are removed and the
+/// problem is posed again, until F has full dimension in what is left. (3) F is bounded if Σx is.
+struct ForcePolytope {
+  PolytopeStatus status = PolytopeStatus::kEmpty;
+  ContactMatrix natural;        ///< the problem with every contact as the scene has it
+  NullSpace null_space;         ///< of `natural`: rank, nullity d, gap
+  ContactMatrix contacts;       ///< the problem with closed edges removed
+  int dim = -1;                 ///< dim F; −1 if empty
+  bool rank_ambiguous = false;  ///< of either null space
+  double interior_slack = 0;    ///< t of the interior point (mg): every x is at least this; capped at 1
+  Eigen::VectorXd lightest;     ///< x of the state of smallest total normal force (all edges of `contacts`)
+  std::vector<PolytopeBlock> blocks;
+  Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `contacts`); empty if bounded
+  /// If empty: virtual velocity (x, y, rω) of each disk under which the load does positive work while no
+  /// contact resists [N, 3], largest entry 1.
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
+  std::int64_t pivots = 0;
+  std::int64_t solves = 0;
+};
+
+/// Precondition: find_defect(packing) is empty. Throws LibraryError if a linear program cannot be solved by
+/// any rung of the ladder.
+ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& options = {});
+
+/// The contact state (R_1, T_1, …) in force units of edge strengths x.
+Eigen::VectorXd contact_state(const ForcePolytope& polytope, const Eigen::VectorXd& x);
+
+}  // namespace indet

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "indet/lp/feasible_set.h"
+#include "indet/lp/lp_solver.h"
+
+namespace indet {
+
+/// The result of "maximise t ≤ 1 with every x ≥ t" over a FeasibleSet.
+struct InteriorPoint {
+  double slack = 0;  ///< t: > 0 strictly interior point, < 0 the set is empty, 0: see `multipliers`
+  Eigen::VectorXd z;
+  /// y ≥ 0, Σy = 1, slopeᵀ y = 0: y·x is the same number t everywhere. t < 0 proves emptiness (Farkas); t = 0
+  /// proves that every x_k with y_k > 0 is 0 everywhere. Zero if t reached its cap.
+  Eigen::VectorXd multipliers;
+  std::int64_t pivots = 0;
+};
+
+/// Throws LibraryError if the linear program fails.
+InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& options);
+
+/// A direction x ≥ 0, Σx = 1 in which the set is unbounded, as Σx over the recession cone {z : slope · z ≥ 0}
+/// is maximised; empty if there is none.
+Eigen::VectorXd find_recession_ray(const FeasibleSet& set, const LpOptions& options, std::int64_t& pivots);
+
+}  // namespace indet

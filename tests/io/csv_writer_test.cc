@@ -1,0 +1,105 @@
+#include "indet/io/csv_writer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "indet/base/error.h"
+#include "indet/io/csv_reader.h"
+#include "indet/io/lammps_reader.h"
+#include "indet/io/table.h"
+#include "io/sample.h"
+#include "support/temporary_folder.h"
+
+namespace indet {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+void expect_same(const Packing& left, const Packing& right) {
+  EXPECT_EQ(left.gravity, right.gravity);
+  EXPECT_EQ(left.named_force_unit, right.named_force_unit);
+  ASSERT_EQ(left.disk_count(), right.disk_count());
+  for (int i = 0; i < left.disk_count(); ++i) {
+    const Disk& a = left[DiskId(i)];
+    const Disk& b = right[DiskId(i)];
+    EXPECT_TRUE(a.id == b.id && a.position == b.position && a.radius == b.radius && a.mass == b.mass &&
+                a.inertia == b.inertia && a.angle == b.angle && a.velocity == b.velocity &&
+                a.angular_velocity == b.angular_velocity && a.load == b.load)
+        << i;
+  }
+  ASSERT_EQ(left.wall_count(), right.wall_count());
+  for (int i = 0; i < left.wall_count(); ++i) {
+    const Wall& a = left[WallId(i)];
+    const Wall& b = right[WallId(i)];
+    EXPECT_TRUE(a.id == b.id && a.point == b.point && a.normal == b.normal && a.name == b.name) << i;
+  }
+  ASSERT_EQ(left.contact_count(), right.contact_count());
+  for (int i = 0; i < left.contact_count(); ++i) {
+    const Contact& a = left[ContactId(i)];
+    const Contact& b = right[ContactId(i)];
+    EXPECT_TRUE(a.a == b.a && a.b == b.b && a.normal == b.normal && a.gap == b.gap && a.mu == b.mu &&
+                same_number(a.R, b.R) && same_number(a.T, b.T))
+        << i;
+  }
+}
+
+TEST(CsvWriter, ASceneReadsBackToTheSamePacking) {
+  const test::TemporaryFolder folder;
+  Packing packing = test::sample_packing();
+  write_csv_scene(folder / "scene", packing, packing.simulated_forces());
+  expect_same(read_csv_scene(folder / "scene").packing, packing);
+  packing.named_force_unit = 0.1;
+  packing.gravity = {1e-3, -9.81};
+  packing.walls[0].name = "a, b # c";
+  write_csv_scene(folder / "scene", packing, packing.simulated_forces());
+  expect_same(read_csv_scene(folder / "scene").packing, packing);
+}
+
+TEST(CsvWriter, ARealPackingReadsBackToTheSamePacking) {
+  const test::TemporaryFolder folder;
+  LammpsOptions options;
+  options.atoms = std::string(INDET_TEST_DATA) + "/lammps/atoms.dump";
+  options.contacts = std::string(INDET_TEST_DATA) + "/lammps/contacts.dump";
+  options.friction = 0.3;
+  const Packing packing = read_lammps(options).packing;
+  write_csv_scene(folder.path(), packing, packing.simulated_forces());
+  expect_same(read_csv_scene(folder.path()).packing, packing);
+}
+
+TEST(CsvWriter, TheTableHasARowAContact) {
+  const test::TemporaryFolder folder;
+  const Packing packing = test::sample_packing();
+  const ForceRanges ranges = test::sample_ranges();
+  write_contact_table(folder / "c.csv", packing, ranges.states.row(2).transpose(), &ranges);
+  const Table table = read_csv(folder / "c.csv");
+  ASSERT_EQ(table.rows(), 5);
+  EXPECT_EQ(table.integer(2, "contact"), 2);
+  EXPECT_EQ(table.integer(2, "a"), 10);
+  EXPECT_EQ(table.integer(2, "b"), -10);
+  EXPECT_EQ(table.number(2, "R"), 2004.5);
+  EXPECT_EQ(table.number(2, "T"), 2005.5);
+  EXPECT_EQ(table.text(2, "R_max"), "inf");
+  EXPECT_EQ(table.number(3, "R_min"), 130);
+  EXPECT_TRUE(table.is_empty(3, "T_min"));
+  EXPECT_EQ(table.text(3, "T_min_outcome"), "optimal");
+  EXPECT_EQ(table.number(4, "delta_T"), 10);
+  write_contact_table(folder / "p.csv", packing, packing.simulated_forces(), nullptr);
+  EXPECT_FALSE(read_csv(folder / "p.csv").has("R_max"));
+}
+
+TEST(CsvWriter, AFolderThatCannotBeMadeIsNamed) {
+  const test::TemporaryFolder folder;
+  folder.write("file", "");
+  const Packing packing = test::sample_packing();
+  EXPECT_THAT([&] { write_csv_scene(folder / "file" / "scene", packing, packing.simulated_forces()); },
+              ThrowsMessage<InputError>(HasSubstr("the folder cannot be made")));
+}
+
+}  // namespace
+}  // namespace indet

@@ -1,0 +1,179 @@
+"""Reads the files of write_samples.cc with h5py: a reader that shares no code with the writer."""
+
+import hashlib
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+FOLDER = sys.argv.pop()
+
+
+def digest(file, roots):
+    """SHA-256 over all numbers below `roots`, as docs/file-format.md defines it."""
+    items = {}
+
+    def add(name, thing):
+        for key, value in thing.attrs.items():
+            value = np.asarray(value)
+            if value.dtype.kind in "fiu":
+                items[f"/{name}@{key}"] = value
+        if isinstance(thing, h5py.Dataset) and thing.dtype.kind in "fiu":
+            items[f"/{name}"] = thing[()]
+
+    for root in roots:
+        add(root, file[root])
+        if isinstance(file[root], h5py.Group):
+            file[root].visititems(lambda name, thing, root=root: add(f"{root}/{name}", thing))
+    sha = hashlib.sha256()
+    for key in sorted(items, key=lambda text: text.encode()):
+        value = np.asarray(items[key])
+        sha.update(key.encode() + b"\0")
+        sha.update(np.array([value.ndim, *value.shape], "<i8").tobytes())
+        sha.update(value.astype("<f8" if value.dtype.kind == "f" else "<i8").tobytes())
+    return sha.hexdigest()
+
+
+class Samples(unittest.TestCase):
+    def setUp(self):
+        self.file = h5py.File(f"{FOLDER}/ranges.h5", "r")
+        self.addCleanup(self.file.close)
+
+    def equal(self, path, expected, dtype):
+        dataset = self.file[path]
+        self.assertEqual(dataset.dtype, np.dtype(dtype), path)
+        expected = np.asarray(expected)
+        self.assertEqual(dataset.shape, expected.shape, path)
+        np.testing.assert_array_equal(dataset[()], expected, path)
+
+    def test_every_dataset_is_readable_and_labelled(self):
+        found = []
+
+        def check(name, thing):
+            if not isinstance(thing, h5py.Dataset):
+                return
+            found.append("/" + name)
+            self.assertIsInstance(thing.attrs["unit"], str)
+            self.assertTrue(thing.attrs["unit"])
+            self.assertGreater(len(thing.attrs["long_name"]), 3)
+            self.assertIsNotNone(thing[()])
+
+        self.file.visititems(check)
+        self.assertEqual(len(found), 41, found)
+
+    def test_root(self):
+        self.assertEqual(self.file.attrs["Conventions"], "H5MD-1.1 indet-1")
+        self.assertEqual(list(self.file.attrs["schema_version"]), [1, 0])
+        self.assertEqual(self.file.attrs["complete"], 1)
+        self.assertEqual(list(self.file["h5md"].attrs["version"]), [1, 1])
+        self.assertEqual(self.file["h5md/creator"].attrs["name"], "indet")
+        self.assertIn("name", self.file["h5md/author"].attrs)
+
+    def test_parameters(self):
+        attrs = self.file["parameters"].attrs
+        self.assertEqual(attrs["protocol"], "import csv")
+        self.assertEqual(attrs["seed"], 17)
+        self.assertEqual(attrs["config"], '[import]\nformat = "csv"\n')
+        self.assertTrue(np.isnan(attrs["mu"]))
+        self.assertEqual(list(attrs["gravity"]), [0, -2])
+        self.assertEqual(attrs["mg"], 4)
+        self.assertEqual(attrs["r_max"], 1)
+
+    def test_disks(self):
+        i = np.arange(3.0)
+        group = "particles/disks/"
+        self.equal(group + "id", [10, 11, 12], "<i4")
+        self.equal(group + "position", [[0, 1], [2.5, 1], [1.25, 2.5612494995995996]], "<f8")
+        self.equal(group + "angle", 0.1 * i, "<f8")
+        self.equal(group + "velocity", np.stack([0.01 * i, 0.02 * i], 1), "<f8")
+        self.equal(group + "angular_velocity", 0.03 * i, "<f8")
+        self.equal(group + "radius", [1, 1, 1], "<f8")
+        self.equal(group + "mass", 1 + i, "<f8")
+        self.equal(group + "inertia", 0.5 + i, "<f8")
+        self.equal(group + "load", np.stack([0.1 + i, 0.2 + i, 0.3 + i], 1), "<f8")
+        self.assertEqual(self.file[group + "box"].attrs["dimension"], 2)
+        self.assertEqual(list(self.file[group + "box"].attrs["boundary"]), ["none", "none"])
+
+    def test_walls(self):
+        self.equal("walls/id", [4, 9], "<i4")
+        self.equal("walls/point", [[0.5, 0], [-1, 3]], "<f8")
+        self.equal("walls/normal", [[0, 1], [1, 0]], "<f8")
+        self.assertEqual(list(self.file["walls/name"].asstr()[()]), ["floor", "links ∥"])
+
+    def test_contacts(self):
+        self.equal("contacts/body_a", [0, 1, 0, 2, 2], "<i4")
+        self.equal("contacts/body_b", [-1, -1, -2, 0, 1], "<i4")
+        self.equal("contacts/mu", [0.5, 0.25, 0.125, 0, 1], "<f8")
+        self.equal("contacts/R", [10, 11, 12, 13, 14], "<f8")
+        self.equal("contacts/T", [-1, -2, -3, -4, np.nan], "<f8")
+        normal = self.file["contacts/normal"][()]
+        np.testing.assert_allclose(normal[3], [0.625, 0.7806247497997998], rtol=1e-14)
+        np.testing.assert_allclose(normal[4], [-0.625, 0.7806247497997998], rtol=1e-14)
+        np.testing.assert_allclose(self.file["contacts/gap"][()], 0, atol=1e-14)
+
+    def test_equilibrium(self):
+        attrs = self.file["equilibrium"].attrs
+        expected = {
+            "status": "unbounded", "unknowns": 9, "equations": 8, "rank": 6, "nullity": 4, "dim": 3, "blocks": 2,
+            "rank_gap": 1e12, "smallest_accepted": 0.25, "largest_rejected": 1e-16, "rank_ambiguous": 1,
+            "residual": 1e-14, "force_unit": 4, "sliding": 1, "non_transmitting": 0, "objectives": 20,
+            "determined": 2, "certified": 12, "imprecise": 3, "failed": 1, "unbounded": 4,
+            "worst_primal_residual": 4.3e-14, "worst_dual_residual": 2.5e-15,
+        }
+        self.assertEqual(dict(attrs), expected)
+
+    def test_ranges(self):
+        i = np.arange(5.0)[:, None]
+        j = np.arange(4.0)
+        value = 100 + 10 * i + j
+        value[2, 1] = np.inf
+        value[3, 2] = np.nan
+        for column, name in enumerate(["R_min", "R_max", "T_min", "T_max"]):
+            self.equal(f"ranges/{name}", value[:, column], "<f8")
+        self.equal("ranges/lower", 200 + 10 * i + j, "<f8")
+        self.equal("ranges/upper", 300 + 10 * i + j, "<f8")
+        self.equal("ranges/primal_residual", 1e-15 * (10 * i + j), "<f8")
+        self.equal("ranges/dual_residual", -1e-16 * (10 * i + j), "<f8")
+        self.equal("ranges/outcome", (i + j) % 5, "u1")
+        self.assertEqual(
+            h5py.check_enum_dtype(self.file["ranges/outcome"].dtype),
+            {"optimal": 0, "unbounded": 1, "imprecise": 2, "failed": 3, "not_requested": 4})
+        self.equal("ranges/unique", (i * j) % 2, "u1")
+        self.equal("ranges/vertex", (4 * i + j) % 8 - 1, "<i4")
+        i = i[:, 0]
+        for factor, name in [(1.5, "delta_R"), (2.5, "delta_T"), (3.5, "d_R"), (4.5, "d_T"), (0.125, "R_star"),
+                             (-0.125, "T_star")]:
+            self.equal(f"ranges/{name}", factor * i, "<f8")
+        self.equal("ranges/ray", np.arange(10.0), "<f8")
+
+    def test_extremal(self):
+        k = np.arange(7.0)[:, None]
+        self.equal("extremal/states", 1000 * k + np.arange(10.0) + 0.5, "<f8")
+        self.equal("extremal/norm", 7 - k[:, 0], "<f8")
+        self.equal("extremal/active", k + np.arange(3.0), "<i4")
+        self.assertEqual(self.file["extremal"].attrs["largest_norm"], 6)
+
+    def test_provenance(self):
+        group = self.file["provenance"]
+        self.assertEqual(list(group.attrs["argv"]), ["indet", "analyze"])
+        self.assertEqual(group["libraries"].attrs["GLPK"], "5.0")
+        self.assertEqual(dict(group["timings"].attrs), {"ranges": 1.5, "rank": 0.25, "read": 0.5})
+        self.assertEqual(dict(group["work"].attrs), {"formulation": "edge", "solves": 11, "pivots": 57})
+
+    def test_digests(self):
+        content = [name for name in self.file if name != "provenance"]
+        self.assertEqual(digest(self.file, content), self.file.attrs["content_sha256"])
+        self.assertEqual(digest(self.file, ["extremal", "ranges"]), self.file["ranges"].attrs["sha256"])
+
+    def test_large_data_are_compressed(self):
+        with h5py.File(f"{FOLDER}/large.h5", "r") as file:
+            states = file["extremal/states"]
+            self.assertEqual((states.compression, states.shuffle, states.fletcher32), ("gzip", True, True))
+            expected = np.arange(3001.0)[:, None] + 0.0625 * np.arange(10)
+            np.testing.assert_array_equal(states[()], expected)
+            self.assertIsNone(file["ranges/R_min"].compression)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=0)

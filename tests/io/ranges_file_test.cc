@@ -1,0 +1,235 @@
+#include "indet/io/ranges_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "io/sample.h"
+#include "support/temporary_folder.h"
+
+namespace indet {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Equal, where NaN equals NaN.
+template <class Left, class Right>
+bool same(const Left& left, const Right& right) {
+  if (left.rows() != right.rows() || left.cols() != right.cols()) return false;
+  for (Eigen::Index i = 0; i < left.rows(); ++i) {
+    for (Eigen::Index j = 0; j < left.cols(); ++j) {
+      const auto a = left(i, j);
+      const auto b = right(i, j);
+      if (!(a == b || (a != a && b != b))) return false;
+    }
+  }
+  return true;
+}
+
+void expect_same_packing(const Packing& left, const Packing& right) {
+  EXPECT_EQ(left.gravity, right.gravity);
+  EXPECT_EQ(left.named_force_unit, right.named_force_unit);
+  EXPECT_EQ(left.origin.protocol, right.origin.protocol);
+  EXPECT_EQ(left.origin.seed, right.origin.seed);
+  EXPECT_EQ(left.origin.config, right.origin.config);
+  ASSERT_EQ(left.disk_count(), right.disk_count());
+  for (int i = 0; i < left.disk_count(); ++i) {
+    const Disk& a = left[DiskId(i)];
+    const Disk& b = right[DiskId(i)];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.mass, b.mass);
+    EXPECT_EQ(a.inertia, b.inertia);
+    EXPECT_EQ(a.angle, b.angle);
+    EXPECT_EQ(a.velocity, b.velocity);
+    EXPECT_EQ(a.angular_velocity, b.angular_velocity);
+    EXPECT_EQ(a.load, b.load);
+  }
+  ASSERT_EQ(left.wall_count(), right.wall_count());
+  for (int i = 0; i < left.wall_count(); ++i) {
+    const Wall& a = left[WallId(i)];
+    const Wall& b = right[WallId(i)];
+    EXPECT_TRUE(a.id == b.id && a.point == b.point && a.normal == b.normal && a.name == b.name) << i;
+  }
+  ASSERT_EQ(left.contact_count(), right.contact_count());
+  for (int i = 0; i < left.contact_count(); ++i) {
+    const Contact& a = left[ContactId(i)];
+    const Contact& b = right[ContactId(i)];
+    EXPECT_TRUE(a.a == b.a && a.b == b.b && a.normal == b.normal && a.gap == b.gap && a.mu == b.mu) << i;
+  }
+  EXPECT_TRUE(same(left.simulated_forces(), right.simulated_forces()));
+}
+
+TEST(PackingFile, APackingComesBack) {
+  const test::TemporaryFolder folder;
+  Packing packing = test::sample_packing();
+  write_packing(folder / "p.h5", packing, {});
+  expect_same_packing(read_packing(folder / "p.h5"), packing);
+  EXPECT_FALSE(file_has_ranges(folder / "p.h5"));
+  packing.gravity = {0, 0};
+  packing.named_force_unit = 3;
+  packing.walls.clear();
+  packing.contacts.clear();
+  write_packing(folder / "p.h5", packing, {});
+  expect_same_packing(read_packing(folder / "p.h5"), packing);
+}
+
+TEST(PackingFile, ProvenanceTellsOfTheRun) {
+  const test::TemporaryFolder folder;
+  write_packing(folder / "p.h5", test::sample_packing(),
+                {{"indet", "import"}, "threads = 2\n", {{"GLPK", "5.0"}}, {{"read", 0.5}}});
+  const Hdf5File file = open_indet_file(folder / "p.h5");
+  EXPECT_EQ(file.string_attribute("/provenance", "config"), "threads = 2\n");
+  EXPECT_EQ(file.string_attribute("/provenance/libraries", "GLPK"), "5.0");
+  EXPECT_EQ(file.string_attribute("/provenance/libraries", "HDF5"), hdf5_version());
+  EXPECT_EQ(file.double_attribute("/provenance/timings", "read"), 0.5);
+  EXPECT_THAT(file.string_attribute("/provenance", "created"),
+              ::testing::MatchesRegex("20..-..-..T..:..:..Z"));
+}
+
+TEST(PackingFile, AnInvalidPackingIsRefused) {
+  const test::TemporaryFolder folder;
+  Packing packing = test::sample_packing();
+  packing.contacts[3].normal = {0, 1};
+  write_packing(folder / "p.h5", packing, {});
+  EXPECT_THAT([&] { read_packing(folder / "p.h5"); },
+              ThrowsMessage<InputError>(HasSubstr("p.h5: contact 3: the normal (0, 1) disagrees")));
+}
+
+TEST(RangesFile, EveryFieldComesBack) {
+  const test::TemporaryFolder folder;
+  const ForceRanges written = test::sample_ranges();
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {{}, "", {}, {{"write", 0.125}}});
+  EXPECT_TRUE(file_has_ranges(folder / "r.h5"));
+  expect_same_packing(read_packing(folder / "r.h5"), test::sample_packing());
+  const ForceRanges read = read_ranges(folder / "r.h5");
+  EXPECT_EQ(read.status, written.status);
+  EXPECT_EQ(read.unknowns, written.unknowns);
+  EXPECT_EQ(read.equations, written.equations);
+  EXPECT_EQ(read.rank, written.rank);
+  EXPECT_EQ(read.nullity, written.nullity);
+  EXPECT_EQ(read.dim, written.dim);
+  EXPECT_EQ(read.blocks, written.blocks);
+  EXPECT_EQ(read.rank_gap, written.rank_gap);
+  EXPECT_EQ(read.smallest_accepted, written.smallest_accepted);
+  EXPECT_EQ(read.largest_rejected, written.largest_rejected);
+  EXPECT_EQ(read.rank_ambiguous, written.rank_ambiguous);
+  EXPECT_EQ(read.residual, written.residual);
+  EXPECT_EQ(read.force_unit, written.force_unit);
+  EXPECT_EQ(read.sliding, written.sliding);
+  EXPECT_EQ(read.non_transmitting, written.non_transmitting);
+  EXPECT_TRUE(same(read.value, written.value));
+  EXPECT_TRUE(same(read.lower, written.lower));
+  EXPECT_TRUE(same(read.upper, written.upper));
+  EXPECT_TRUE(same(read.outcome, written.outcome));
+  EXPECT_TRUE(same(read.primal_residual, written.primal_residual));
+  EXPECT_TRUE(same(read.dual_residual, written.dual_residual));
+  EXPECT_TRUE(same(read.unique, written.unique));
+  EXPECT_TRUE(same(read.vertex, written.vertex));
+  EXPECT_TRUE(same(read.delta_R, written.delta_R));
+  EXPECT_TRUE(same(read.delta_T, written.delta_T));
+  EXPECT_TRUE(same(read.d_R, written.d_R));
+  EXPECT_TRUE(same(read.d_T, written.d_T));
+  EXPECT_TRUE(same(read.R_star, written.R_star));
+  EXPECT_TRUE(same(read.T_star, written.T_star));
+  EXPECT_TRUE(same(read.states, written.states));
+  EXPECT_TRUE(same(read.norm, written.norm));
+  EXPECT_TRUE(same(read.active, written.active));
+  EXPECT_EQ(read.largest_norm, written.largest_norm);
+  EXPECT_TRUE(same(read.ray, written.ray));
+  EXPECT_EQ(read.motion.rows(), 0);
+  EXPECT_EQ(read.formulation, written.formulation);
+  EXPECT_EQ(read.objectives, written.objectives);
+  EXPECT_EQ(read.solves, written.solves);
+  EXPECT_EQ(read.pivots, written.pivots);
+  EXPECT_EQ(read.determined, written.determined);
+  EXPECT_EQ(read.certified, written.certified);
+  EXPECT_EQ(read.imprecise, written.imprecise);
+  EXPECT_EQ(read.failed, written.failed);
+  EXPECT_EQ(read.unbounded, written.unbounded);
+  EXPECT_EQ(read.worst_primal_residual, written.worst_primal_residual);
+  EXPECT_EQ(read.worst_dual_residual, written.worst_dual_residual);
+  EXPECT_EQ(read.seconds, (std::map<std::string, double>{{"rank", 0.25}, {"ranges", 1.5}, {"write", 0.125}}));
+}
+
+TEST(RangesFile, AnEmptyPolytopeKeepsItsMotion) {
+  const test::TemporaryFolder folder;
+  ForceRanges written = test::sample_ranges();
+  written.status = PolytopeStatus::kEmpty;
+  written.dim = -1;
+  written.ray.resize(0);
+  written.motion.resize(3, 3);
+  written.motion << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  written.states.resize(0, 10);
+  written.norm.resize(0);
+  written.active.resize(0, 0);
+  written.vertex.setConstant(-1);
+  written.largest_norm = -1;
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  const ForceRanges read = read_ranges(folder / "r.h5");
+  EXPECT_EQ(read.status, PolytopeStatus::kEmpty);
+  EXPECT_EQ(read.dim, -1);
+  EXPECT_TRUE(same(read.motion, written.motion));
+  EXPECT_EQ(read.ray.size(), 0);
+  EXPECT_EQ(read.states.rows(), 0);
+}
+
+TEST(RangesFile, PointersToNoStateAreRefused) {
+  const test::TemporaryFolder folder;
+  ForceRanges ranges = test::sample_ranges();
+  ranges.vertex(1, 2) = 7;
+  write_ranges(folder / "r.h5", test::sample_packing(), ranges, {});
+  EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },
+              ThrowsMessage<InputError>(HasSubstr("/ranges/vertex: points to state 7, but there are 7")));
+}
+
+TEST(RangesFile, AFileWithoutRangesSaysSo) {
+  const test::TemporaryFolder folder;
+  write_packing(folder / "p.h5", test::sample_packing(), {});
+  EXPECT_THAT([&] { read_ranges(folder / "p.h5"); }, ThrowsMessage<InputError>(HasSubstr("indet analyze")));
+}
+
+TEST(RangesFile, DigestsMatchAndIgnoreProvenance) {
+  const test::TemporaryFolder folder;
+  write_ranges(folder / "r.h5", test::sample_packing(), test::sample_ranges(), {});
+  const Digests first = compute_digests(folder / "r.h5");
+  EXPECT_TRUE(first.match());
+  EXPECT_EQ(first.ranges.size(), 64);
+  ForceRanges other = test::sample_ranges();
+  other.solves = 99;
+  other.formulation = "dual";
+  other.seconds["ranges"] = 3;
+  write_ranges(folder / "r.h5", test::sample_packing(), other, {{"indet", "-j2"}, "threads = 2", {}, {}});
+  const Digests second = compute_digests(folder / "r.h5");
+  EXPECT_EQ(second.content, first.content);
+  EXPECT_EQ(second.ranges, first.ranges);
+  other.delta_T[4] = std::nextafter(other.delta_T[4], 100);
+  write_ranges(folder / "r.h5", test::sample_packing(), other, {});
+  EXPECT_NE(compute_digests(folder / "r.h5").ranges, first.ranges);
+}
+
+TEST(RangesFile, ForeignAndUnfinishedFilesAreRefused) {
+  const test::TemporaryFolder folder;
+  {
+    Hdf5File file = Hdf5File::create(folder / "other.h5");
+    file.make_group("/data");
+    file.commit();
+  }
+  EXPECT_THAT([&] { read_packing(folder / "other.h5"); },
+              ThrowsMessage<InputError>(HasSubstr("is an HDF5 file, but not one of indet")));
+  {
+    Hdf5File file = Hdf5File::create(folder / "half.h5");
+    write_header(file);
+    file.commit();
+  }
+  EXPECT_THAT([&] { read_packing(folder / "half.h5"); },
+              ThrowsMessage<InputError>(HasSubstr("was not written to its end")));
+}
+
+}  // namespace
+}  // namespace indet
