@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "worlds.h"
+#include "sim/worlds.h"
 
 namespace indet::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "indet/base/random.h"
-#include "worlds.h"
+#include "sim/worlds.h"
 
 namespace indet::sim {
 namespace {

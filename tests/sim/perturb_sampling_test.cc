@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "indet/base/error.h"
-#include "worlds.h"
+#include "sim/worlds.h"
 
 namespace indet::sim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "indet/base/random.h"
 #include "indet/sim/static_solver.h"
-#include "worlds.h"
+#include "sim/worlds.h"
 
 namespace indet::sim {
 namespace {

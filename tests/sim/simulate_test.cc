@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "indet/base/error.h"
-#include "worlds.h"
+#include "sim/worlds.h"
 
 namespace indet::sim {
 namespace {
