@@ -43,11 +43,11 @@ struct Checkpoint {
 
 /// What a caller wants to hear while a run goes on.
 struct Listener {
-  ProgressCallback progress;
+  ProgressCallback progress = {};
   double frame_interval = 0;  ///< Simulated time between frames; 0: none. Rounded to whole checks.
-  std::function<void(Frame)> on_frame;
+  std::function<void(const Frame&)> on_frame = {};
   double checkpoint_seconds = 0;  ///< Wall-clock time between checkpoints; 0: none but at an interruption.
-  std::function<void(const Checkpoint&)> on_checkpoint;
+  std::function<void(const Checkpoint&)> on_checkpoint = {};
 };
 
 struct Settled {
