@@ -31,8 +31,9 @@ class View {
         low = low.cwiseMin(frame.positions[i] - r);
         high = high.cwiseMax(frame.positions[i] + r);
       }
-      for (const Contact& contact : frame.contacts) largest_ = std::max(largest_, contact.R);
     }
+    // Impacts on the way are much stronger than the forces at rest; they are cut off when drawn.
+    for (const Contact& contact : trajectory.back().contacts) largest_ = std::max(largest_, contact.R);
     low_ = low;
     high_ = high;
     scale_ = std::min(kFrameHeight / (high.y() - low.y()), kFrameWidest / (high.x() - low.x()));
@@ -61,8 +62,8 @@ class View {
       const Vector2 from = place(a);
       const Vector2 to = place(b);
       fmt::format_to(out, "<path class='f' stroke-width='{:.2f}' d='M{:.2f} {:.2f}L{:.2f} {:.2f}'/>\n",
-                     kThickest * packing_.max_radius() * scale_ * contact.R / largest_, from.x(), from.y(),
-                     to.x(), to.y());
+                     kThickest * packing_.max_radius() * scale_ * std::min(1.0, contact.R / largest_),
+                     from.x(), from.y(), to.x(), to.y());
     }
   }
 
@@ -96,7 +97,8 @@ std::string head(double width, double height) {
       "{1:.2f}'>\n"
       "<style>circle{{fill:#eee;stroke:#999;stroke-width:.5}}path{{stroke:#999;stroke-width:.5;fill:none}}"
       ".f{{stroke:#0072b2;stroke-linecap:round}}.w{{stroke:#333;stroke-width:1}}"
-      "text{{font:{2}px sans-serif;text-anchor:middle}}svg svg{{overflow:hidden}}</style>\n",
+      "text{{font:{2}px sans-serif;text-anchor:middle}}svg svg{{overflow:hidden}}</style>\n"
+      "<rect width='100%' height='100%' fill='#fff'/>\n",
       width, height, kText);
 }
 
