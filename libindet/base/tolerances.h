@@ -32,8 +32,8 @@ inline constexpr double kImplicitEquality = 1e-9;
 
 /// GLPK's own feasibility and optimality tolerances. Its answer is only a proposal (a basis), from which we
 /// recompute.
-inline constexpr double kLpFeasibility = 1e-9;
-inline constexpr double kLpOptimality = 1e-9;
+inline constexpr double kLpFeasibility = 1e-10;
+inline constexpr double kLpOptimality = 1e-10;
 
 /// An objective settled by a vertex: reduced costs above −kReducedCost (dimensionless) count as non-negative,
 /// those below kReducedCost in magnitude as zero when the uniqueness of the extremal state is decided.
@@ -42,6 +42,10 @@ inline constexpr double kReducedCost = 1e-9;
 /// Two values of one objective (mg, relative to max(1, |value|)) count as equal when it is asked whether a
 /// vertex attains the optimum.
 inline constexpr double kTie = 1e-10;
+
+/// An objective is unbounded if it grows by more than this per unit of Σx along a direction of the recession
+/// cone (dimensionless).
+inline constexpr double kRay = 1e-9;
 
 /// Default of --balance-tol: largest force or torque residual of an imported packing with known forces, in
 /// mg.

@@ -20,8 +20,12 @@ Objective make_objective(const FeasibleSet& set, std::vector<std::pair<int, doub
 
 double Vertex::infeasibility() const { return x.size() == 0 ? 0 : std::max(0.0, -x.minCoeff()); }
 
+Eigen::VectorXd Vertex::edge(int k) const { return active.solve(Eigen::VectorXd::Unit(z.size(), k)); }
+
 Eigen::VectorXd Vertex::multipliers(const Eigen::Ref<const Eigen::VectorXd>& g) const {
-  return -(inverse.transpose() * g);
+  if (z.size() == 0) return {};
+  const Eigen::VectorXd costs = active.transpose().solve(g);
+  return -costs;
 }
 
 Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
@@ -30,19 +34,15 @@ Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
   const int d = set.dim();
   if (static_cast<int>(basis.size()) != d)
     throw LibraryError("a vertex needs as many active inequalities as dimensions");
-  const Eigen::MatrixXd active = set.slope(basis, Eigen::all);
-  const Eigen::VectorXd offset = set.offset(basis);
   if (d > 0) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(active);
-    vertex.z = lu.solve(-offset);
-    vertex.z += lu.solve(-offset - active * vertex.z);
-    vertex.inverse = lu.inverse();
-    if (!vertex.z.allFinite() || !vertex.inverse.allFinite()) {
-      throw LibraryError("the active inequalities of a vertex are not independent");
-    }
+    const Eigen::MatrixXd rows = set.slope(basis, Eigen::all);
+    const Eigen::VectorXd offset = set.offset(basis);
+    vertex.active.compute(rows);
+    vertex.z = vertex.active.solve(-offset);
+    vertex.z += vertex.active.solve(-offset - rows * vertex.z);
+    if (!vertex.z.allFinite()) throw LibraryError("the active inequalities of a vertex are not independent");
   } else {
     vertex.z.resize(0);
-    vertex.inverse.resize(0, 0);
   }
   vertex.x = set.offset + set.slope * vertex.z;
   for (const int k : basis) vertex.x[k] = 0;
@@ -50,7 +50,7 @@ Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
 }
 
 double edge_length(const FeasibleSet& set, const Vertex& vertex, int k) {
-  Eigen::VectorXd direction = set.slope * vertex.inverse.col(k);
+  Eigen::VectorXd direction = set.slope * vertex.edge(k);
   for (const int active : vertex.basis) direction[active] = 0;
   double length = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {

@@ -57,7 +57,7 @@ std::vector<PolytopeBlock> split_into_blocks(const ContactMatrix& contacts, cons
                                              const Vertex& vertex) {
   const int d = whole.dim();
   const int count = whole.inequalities();
-  const Eigen::MatrixXd D = whole.slope * vertex.inverse;
+  const Eigen::MatrixXd D = whole.slope * vertex.active.inverse();
   const double zero = tolerance::kReducedCost;
 
   // Elements 0 … d − 1: coordinates; then one element an edge.

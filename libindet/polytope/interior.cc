@@ -48,25 +48,29 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
   return result;
 }
 
-Eigen::VectorXd find_recession_ray(const FeasibleSet& set, const LpOptions& options, std::int64_t& pivots) {
-  const int d = set.dim();
+FeasibleSet truncated_recession_cone(const FeasibleSet& set) {
   const int count = set.inequalities();
   FeasibleSet cone;
-  cone.slope.resize(count + 1, d);
+  cone.slope.resize(count + 1, set.dim());
   cone.slope << set.slope, -set.slope.colwise().sum();
   cone.offset = Eigen::VectorXd::Unit(count + 1, count);
+  return cone;
+}
+
+Eigen::VectorXd find_recession_ray(const FeasibleSet& set, const LpOptions& options, std::int64_t& pivots) {
+  const FeasibleSet cone = truncated_recession_cone(set);
   Objective total;
   total.along_z = set.slope.colwise().sum().transpose();
   LpSolver solver(cone, Formulation::kNullSpace, options);
   const LpAnswer answer =
-      solver.maximise(total, walk_to_vertex(cone, Eigen::VectorXd::Zero(d), total.along_z));
+      solver.maximise(total, walk_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z));
   pivots += answer.pivots;
   if (answer.status != LpStatus::kOptimal) {
     throw LibraryError("the linear program for a recession ray could not be solved");
   }
   const Vertex vertex = compute_vertex(cone, answer.basis);
   if (vertex.z.dot(total.along_z) < 0.5) return {};
-  return vertex.x.head(count);
+  return vertex.x.head(set.inequalities());
 }
 
 }  // namespace indet

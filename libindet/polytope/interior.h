@@ -22,6 +22,10 @@ struct InteriorPoint {
 /// Throws LibraryError if the linear program fails.
 InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& options);
 
+/// The recession cone of a set, cut off: {z : slope · z ≥ 0, Σ slope · z ≤ 1}. Its inequalities are those of
+/// the set, then the cut.
+FeasibleSet truncated_recession_cone(const FeasibleSet& set);
+
 /// A direction x ≥ 0, Σx = 1 in which the set is unbounded, as Σx over the recession cone {z : slope · z ≥ 0}
 /// is maximised; empty if there is none.
 Eigen::VectorXd find_recession_ray(const FeasibleSet& set, const LpOptions& options, std::int64_t& pivots);

@@ -1,0 +1,230 @@
+#include "indet/range/analyze.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "indet/base/error.h"
+#include "indet/base/tolerances.h"
+#include "indet/lp/walk.h"
+#include "indet/polytope/force_polytope.h"
+#include "indet/polytope/interior.h"
+#include "indet/range/certify.h"
+#include "indet/range/extremal_search.h"
+#include "indet/range/measures.h"
+#include "indet/range/state_table.h"
+
+namespace indet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Adds the time since the last mark to a stage.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::map<std::string, double>& seconds) : seconds_(seconds) {}
+  void mark(const std::string& stage) {
+    const auto now = std::chrono::steady_clock::now();
+    seconds_[stage] += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::map<std::string, double>& seconds_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void size_tables(const Packing& packing, ForceRanges& ranges) {
+  const Eigen::Index count = packing.contact_count();
+  for (auto* table :
+       {&ranges.value, &ranges.lower, &ranges.upper, &ranges.primal_residual, &ranges.dual_residual}) {
+    table->setConstant(count, 4, ForceRanges::kNaN);
+  }
+  ranges.outcome.setConstant(count, 4, Outcome::kNotRequested);
+  ranges.unique.setZero(count, 4);
+  ranges.vertex.setConstant(count, 4, -1);
+  ranges.ray.setConstant(count, 4, -1);
+  ranges.rays.resize(0, 2 * count);
+  ranges.states.resize(0, 2 * count);
+  ranges.active.resize(0, 0);
+}
+
+/// The components of the contact forces that live in one block.
+struct BlockComponents {
+  std::vector<Component> components;
+  std::vector<std::pair<ContactId, bool>> names;  ///< contact; true: tangential
+};
+
+BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock& block) {
+  std::map<int, std::pair<Component, Component>> by_contact;
+  for (std::size_t k = 0; k < block.edges.size(); ++k) {
+    const Edge& edge = polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])];
+    auto& [normal, tangential] = by_contact[edge.contact.value()];
+    normal.on_edges.emplace_back(static_cast<int>(k), edge.R);
+    if (edge.T != 0) tangential.on_edges.emplace_back(static_cast<int>(k), edge.T);
+  }
+  BlockComponents result;
+  for (auto& [contact, pair] : by_contact) {
+    for (const bool is_tangential : {false, true}) {
+      Component& component = is_tangential ? pair.second : pair.first;
+      // A component may be determined although the other one of its contact is not.
+      const Objective objective = make_objective(block.set, component.on_edges);
+      if (objective.along_z.norm() <= tolerance::kReducedCost) continue;
+      result.components.push_back(std::move(component));
+      result.names.emplace_back(ContactId(contact), is_tangential);
+    }
+  }
+  return result;
+}
+
+/// Switches off what is unbounded: whatever grows along some direction of the block's recession cone.
+void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, const Eigen::VectorXd& weight,
+                       BlockComponents& block, StateTable& states, std::size_t number, ForceRanges& ranges) {
+  if (find_recession_ray(set, options.lp, ranges.pivots).size() == 0) return;
+  const FeasibleSet cone = truncated_recession_cone(set);
+  SearchOptions cone_options = options;
+  cone_options.formulation = Formulation::kDual;
+  cone_options.canonical_states = false;
+  const Basis apex =
+      walk_to_vertex(cone, Eigen::VectorXd::Zero(cone.dim()), Eigen::VectorXd::Zero(cone.dim()));
+  Eigen::VectorXd cone_weight(weight.size() + 1);
+  cone_weight << weight, 1;
+  const SearchResult growth = search_extrema(cone, block.components, cone_weight, apex, cone_options);
+  ranges.solves += growth.solves;
+  ranges.pivots += growth.pivots;
+  for (std::size_t c = 0; c < block.components.size(); ++c) {
+    const auto [contact, is_tangential] = block.names[c];
+    const auto mark = [&](bool& wanted, const Extremum& extremum, int column, double infinite) {
+      const bool grows =
+          extremum.status == Extremum::Status::kOptimal && std::abs(extremum.value) > tolerance::kRay;
+      if (!grows) return;
+      wanted = false;
+      ranges.value(contact.value(), column) = infinite;
+      ranges.outcome(contact.value(), column) = Outcome::kUnbounded;
+      const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
+      ranges.ray(contact.value(), column) = states.add_ray(number, end.x.head(set.inequalities()));
+      ranges.primal_residual(contact.value(), column) = 0;
+      ranges.dual_residual(contact.value(), column) = extremum.dual_residual;
+    };
+    mark(block.components[c].minimise, growth.minimum[c], is_tangential ? kMinT : kMinR, -kInfinity);
+    mark(block.components[c].maximise, growth.maximum[c], is_tangential ? kMaxT : kMaxR, kInfinity);
+  }
+}
+
+void search_block(const ForcePolytope& polytope, std::size_t number, const SearchOptions& options,
+                  StateTable& states, ForceRanges& ranges) {
+  const PolytopeBlock& block = polytope.blocks[number];
+  Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
+  for (std::size_t k = 0; k < block.edges.size(); ++k) {
+    weight[static_cast<Eigen::Index>(k)] =
+        polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])].R;
+  }
+  BlockComponents wanted = components_of(polytope, block);
+  if (polytope.status == PolytopeStatus::kUnbounded)
+    exclude_unbounded(block.set, options, weight, wanted, states, number, ranges);
+  const SearchResult found = search_extrema(block.set, wanted.components, weight, block.lightest, options);
+  ranges.solves += found.solves;
+  ranges.pivots += found.pivots;
+  for (std::size_t c = 0; c < wanted.components.size(); ++c) {
+    const auto [contact, is_tangential] = wanted.names[c];
+    const auto store = [&](bool asked, const Extremum& extremum, int column) {
+      if (!asked) return;
+      const bool optimal = extremum.status == Extremum::Status::kOptimal;
+      ranges.outcome(contact.value(), column) = optimal ? Outcome::kOptimal : Outcome::kFailed;
+      if (!optimal) return;
+      ranges.vertex(contact.value(), column) =
+          states.add(number, found.vertices[static_cast<std::size_t>(extremum.vertex)]);
+      ranges.dual_residual(contact.value(), column) = extremum.dual_residual;
+      ranges.unique(contact.value(), column) = extremum.unique && polytope.blocks.size() == 1 ? 1 : 0;
+    };
+    store(wanted.components[c].minimise, found.minimum[c], is_tangential ? kMinT : kMinR);
+    store(wanted.components[c].maximise, found.maximum[c], is_tangential ? kMaxT : kMaxR);
+  }
+}
+
+/// Objectives that no linear program was needed for: their value is the same everywhere in F.
+void store_determined(StateTable& states, ForceRanges& ranges) {
+  for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      if (ranges.outcome(i, column) != Outcome::kNotRequested) continue;
+      ranges.outcome(i, column) = Outcome::kOptimal;
+      ranges.vertex(i, column) = states.lightest();
+      ranges.dual_residual(i, column) = 0;
+      ranges.unique(i, column) = ranges.dim == 0 ? 1 : 0;
+      ++ranges.determined;
+    }
+  }
+}
+
+void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
+  const NullSpace& null_space = polytope.null_space;
+  ranges.status = polytope.status;
+  ranges.unknowns = polytope.natural.unknowns();
+  ranges.equations = polytope.natural.equations();
+  ranges.rank = null_space.rank;
+  ranges.nullity = null_space.nullity;
+  ranges.dim = polytope.dim;
+  ranges.blocks = static_cast<int>(polytope.blocks.size());
+  ranges.rank_gap = null_space.rank_gap();
+  ranges.smallest_accepted = null_space.smallest_accepted;
+  ranges.largest_rejected = null_space.largest_rejected;
+  ranges.rank_ambiguous = polytope.rank_ambiguous;
+  ranges.force_unit = polytope.natural.force_unit;
+  ranges.motion = polytope.motion;
+  ranges.solves = polytope.solves;
+  ranges.pivots = polytope.pivots;
+}
+
+}  // namespace
+
+Formulation choose_formulation(int dim, int edges) {
+  static_cast<void>(edges);
+  return dim <= 200 ? Formulation::kDual : Formulation::kEdge;
+}
+
+ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
+  ForceRanges ranges;
+  Stopwatch stopwatch(ranges.seconds);
+  size_tables(packing, ranges);
+  const ForcePolytope polytope = find_force_polytope(packing, options.lp);
+  describe_problem(polytope, ranges);
+  stopwatch.mark("polytope");
+
+  SearchOptions search;
+  int largest = 0;
+  int edges = 0;
+  for (const PolytopeBlock& block : polytope.blocks) {
+    largest = std::max(largest, block.set.dim());
+    edges = std::max(edges, block.set.inequalities());
+  }
+  search.formulation = options.formulation.value_or(choose_formulation(largest, edges));
+  search.lp = options.lp;
+  search.threads = options.threads;
+  search.canonical_states = options.canonical_states;
+  ranges.formulation = to_string(search.formulation);
+  std::int64_t done = 0;
+  if (options.progress) {
+    search.progress = [&](std::int64_t settled, std::int64_t) {
+      return options.progress({"force ranges", done + settled, 4 * packing.contact_count(), {}});
+    };
+  }
+  if (polytope.status != PolytopeStatus::kEmpty) {
+    StateTable states(polytope);
+    for (std::size_t b = 0; b < polytope.blocks.size(); ++b) {
+      search_block(polytope, b, search, states, ranges);
+      done += 2 * polytope.blocks[b].set.inequalities();
+    }
+    store_determined(states, ranges);
+    states.write(ranges);
+  }
+  stopwatch.mark("ranges");
+  certify(packing, ranges);
+  compute_measures(packing, ranges);
+  stopwatch.mark("measures");
+  return ranges;
+}
+
+}  // namespace indet
