@@ -1,12 +1,13 @@
 #include "indet/sim/perturb_sampling.h"
 
 #include <fmt/format.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
 
 #include "indet/base/error.h"
 #include "indet/base/random.h"
@@ -41,6 +42,29 @@ PerturbSample draw(const Packing& packing, const Eigen::VectorXd& from, int inde
   sample.sweeps = solved.sweeps;
   sample.accepted = std::max(sample.residual, sample.cone_violation) <= options.accept_residual;
   return sample;
+}
+
+/// Calls work(0) … work(count − 1) on up to `threads` threads, the calling one among them; rethrows the first
+/// exception.
+template <class Work>
+void for_each(int count, int threads, const Work& work) {
+  std::atomic<int> next = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto worker = [&] {
+    try {
+      for (int i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(worker);
+    worker();
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 void summarise(const Packing& packing, PerturbEnsemble& ensemble) {
@@ -98,18 +122,15 @@ PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions
   // Sample i belongs to chain i mod chains. Chains advance together, one round of samples at a time.
   const int chains = options.chains;
   std::vector<Eigen::VectorXd> ends(static_cast<std::size_t>(chains), packing.simulated_forces());
-  tbb::task_arena arena(std::clamp(options.threads, 1, tbb::info::default_concurrency()));
   for (int begin = 0; begin < options.samples; begin += kRounds * chains) {
     const int end = std::min(options.samples, begin + kRounds * chains);
-    arena.execute([&] {
-      tbb::parallel_for(0, chains, [&](int chain) {
-        Eigen::VectorXd& from = ends[static_cast<std::size_t>(chain)];
-        for (int i = begin + chain; i < end; i += chains) {
-          PerturbSample& sample = ensemble.samples[static_cast<std::size_t>(i)];
-          sample = draw(packing, from, i, options);
-          if (sample.accepted) from = sample.forces;
-        }
-      });
+    for_each(chains, options.threads, [&](int chain) {
+      Eigen::VectorXd& from = ends[static_cast<std::size_t>(chain)];
+      for (int i = begin + chain; i < end; i += chains) {
+        PerturbSample& sample = ensemble.samples[static_cast<std::size_t>(i)];
+        sample = draw(packing, from, i, options);
+        if (sample.accepted) from = sample.forces;
+      }
     });
     const double residual = ensemble.samples[static_cast<std::size_t>(end - 1)].raw_residual;
     if (progress &&
