@@ -92,6 +92,7 @@ SimulationOptions method_of(const SimulateOptions& o, bool rigid, const CLI::App
     for (const char* name : {"--preset", "--stiffness", "--damping", "--damping-method"})
       refuse(name, "md1 and md2");
     sim::ContactDynamicsOptions& cd = options.contact_dynamics;
+    if (o.protocol == "cd2") cd = sim::from_rest_preset();
     set(cd.dt, o.dt);
     set(cd.tolerance, o.tolerance);
     set(cd.max_sweeps, o.sweeps);
@@ -280,7 +281,8 @@ void add_method_options(CLI::App& command, SimulateOptions& o) {
       .add_option("--tolerance", o.tolerance,
                   "Largest change of a force in the last sweep (cd: 1e-6, md: 1e-7)")
       ->group(group);
-  command.add_option("--sweeps", o.sweeps, "Most sweeps a step (cd: 300, md: 1000)")->group(group);
+  command.add_option("--sweeps", o.sweeps, "Most sweeps a step (cd1: 300, cd2: 3000, md: 1000)")
+      ->group(group);
   command.add_option("--alpha", o.alpha, "cd: fraction of an overlap removed a step (default: 0.1)")
       ->group(group);
   command.add_option("--restitution", o.restitution, "cd: normal restitution (default: 0)")->group(group);

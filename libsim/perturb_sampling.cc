@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "indet/base/error.h"
 #include "indet/base/random.h"
+#include "indet/base/worker_team.h"
 
 namespace indet::sim {
 namespace {
@@ -42,29 +39,6 @@ PerturbSample draw(const Packing& packing, const Eigen::VectorXd& from, int inde
   sample.sweeps = solved.sweeps;
   sample.accepted = std::max(sample.residual, sample.cone_violation) <= options.accept_residual;
   return sample;
-}
-
-/// Calls work(0) … work(count − 1) on up to `threads` threads, the calling one among them; rethrows the first
-/// exception.
-template <class Work>
-void for_each(int count, int threads, const Work& work) {
-  std::atomic<int> next = 0;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto worker = [&] {
-    try {
-      for (int i = next++; i < count; i = next++) work(i);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(worker);
-    worker();
-  }
-  if (failure) std::rethrow_exception(failure);
 }
 
 void summarise(const Packing& packing, PerturbEnsemble& ensemble) {
@@ -122,11 +96,12 @@ PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions
   // Sample i belongs to chain i mod chains. Chains advance together, one round of samples at a time.
   const int chains = options.chains;
   std::vector<Eigen::VectorXd> ends(static_cast<std::size_t>(chains), packing.simulated_forces());
+  WorkerTeam team(std::clamp(options.threads, 1, chains));
   for (int begin = 0; begin < options.samples; begin += kRounds * chains) {
     const int end = std::min(options.samples, begin + kRounds * chains);
-    for_each(chains, options.threads, [&](int chain) {
+    team.run(chains, [&](int, std::int64_t chain) {
       Eigen::VectorXd& from = ends[static_cast<std::size_t>(chain)];
-      for (int i = begin + chain; i < end; i += chains) {
+      for (int i = begin + static_cast<int>(chain); i < end; i += chains) {
         PerturbSample& sample = ensemble.samples[static_cast<std::size_t>(i)];
         sample = draw(packing, from, i, options);
         if (sample.accepted) from = sample.forces;

@@ -83,6 +83,12 @@ Reason spring_defect(const World& world, const MolecularDynamicsOptions& md) {
 
 }  // namespace
 
+ContactDynamicsOptions from_rest_preset() {
+  ContactDynamicsOptions options;
+  options.max_sweeps = 3000;
+  return options;
+}
+
 MolecularDynamicsOptions stiff_preset() { return {}; }
 
 MolecularDynamicsOptions paper_preset() {
