@@ -9,7 +9,7 @@ namespace indet::sim {
 namespace {
 
 /// Neighbour lists reach this many units of length further than contact.
-constexpr double kSkin = 0.15;
+constexpr double kSkin = 0.05;
 
 }  // namespace
 
@@ -109,9 +109,13 @@ void ExplicitStepper::add_forces() {
   const int* partners = neighbours_.partners().data();
   const int* first_wall = neighbours_.first_wall().data();
   const int n = world_.size();
+  const double dt = dt_;
+  const Body* bodies = bodies_.data();
+  Force* forces = forces_.data();
+  double* springs = springs_.data();
   for (int i = 0; i < n; ++i) {
-    const Body a = bodies_[i];
-    Force sum = forces_[i];
+    const Body a = bodies[i];
+    Force sum = forces[i];
     for (int k = first_wall[i]; k < first_wall[i + 1]; ++k) {
       const Wall& wall = world_.walls[neighbours_.walls()[k]];
       const double nx = wall.normal.x();
@@ -126,7 +130,7 @@ void ExplicitStepper::add_forces() {
       sum.y += R * ny;
       if constexpr (kFriction) {
         const double u_t = ny * a.vx - nx * a.vy + a.s;
-        const auto tangential = law.tangential_force(wall_springs_[k] + dt_ * u_t, u_t, mu_wall * R);
+        const auto tangential = law.tangential_force(wall_springs_[k] + dt * u_t, u_t, mu_wall * R);
         wall_springs_[k] = tangential.spring;
         sum.x += tangential.T * ny;
         sum.y -= tangential.T * nx;
@@ -135,13 +139,13 @@ void ExplicitStepper::add_forces() {
     }
     for (int k = first[i]; k < first[i + 1]; ++k) {
       const int j = partners[k];
-      const Body& b = bodies_[j];
+      const Body& b = bodies[j];
       const double dx = a.x - b.x;
       const double dy = a.y - b.y;
       const double square = dx * dx + dy * dy;
       const double touching = a.r + b.r;
       if (square >= touching * touching) {
-        if constexpr (kFriction) springs_[k] = 0;
+        if constexpr (kFriction) springs[k] = 0;
         continue;
       }
       const double distance = std::sqrt(square);
@@ -155,19 +159,19 @@ void ExplicitStepper::add_forces() {
       double fy = R * ny;
       if constexpr (kFriction) {
         const double u_t = ny * ux - nx * uy + a.s + b.s;
-        const auto tangential = law.tangential_force(springs_[k] + dt_ * u_t, u_t, mu * R);
-        springs_[k] = tangential.spring;
+        const auto tangential = law.tangential_force(springs[k] + dt * u_t, u_t, mu * R);
+        springs[k] = tangential.spring;
         fx += tangential.T * ny;
         fy -= tangential.T * nx;
         sum.t += tangential.T;
-        forces_[j].t += tangential.T;
+        forces[j].t += tangential.T;
       }
       sum.x += fx;
       sum.y += fy;
-      forces_[j].x -= fx;
-      forces_[j].y -= fy;
+      forces[j].x -= fx;
+      forces[j].y -= fy;
     }
-    forces_[i] = sum;
+    forces[i] = sum;
   }
 }
 
