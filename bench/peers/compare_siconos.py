@@ -79,7 +79,8 @@ def main():
             unit = float(process.stdout.readline().split()[1])
             H, inverse, wrench, radius, friction = contact_problem(folder)
             for tolerance in (1e-4, 1e-6):
-                reaction, theirs = solve_with_siconos(H, inverse, wrench, friction, tolerance)
+                runs = [solve_with_siconos(H, inverse, wrench, friction, tolerance) for _ in range(3)]
+                reaction, theirs = runs[0][0], min(run[1] for run in runs)
                 residual = np.abs((H.T @ reaction + wrench) / radius).max() / unit
                 # Our first tolerance that balances as well.
                 ours = None

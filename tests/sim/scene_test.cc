@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "indet/base/error.h"
+#include "indet/sim/scene_toml.h"
+#include "support/temporary_folder.h"
 
 namespace indet::sim {
 namespace {
@@ -99,6 +101,31 @@ INSTANTIATE_TEST_SUITE_P(
                                },
                                "length 1"}),
     [](const auto& instance) { return instance.param.name; });
+
+TEST(SceneToml, ReadsBackWhatItWrites) {
+  Scene scene;
+  scene.disks = 12;
+  scene.radius_min = 1.0 / 3;
+  scene.friction = {0.1, 0.7};
+  scene.container = Container::kFloor;
+  scene.seed = 77;
+  scene.walls.push_back(Wall{.point = {0.5, -3}, .normal = {0.6, 0.8}, .name = "ramp"});
+  const std::string text = to_toml(scene);
+  const test::TemporaryFolder folder;
+  folder.write("scene.toml", text);
+  EXPECT_EQ(to_toml(read_scene(folder / "scene.toml")), text);
+}
+
+TEST(SceneToml, NamesTheLineThatIsWrong) {
+  const test::TemporaryFolder folder;
+  folder.write("scene.toml", "disks = 3\ngravity = 1\n");
+  try {
+    read_scene(folder / "scene.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("scene.toml:2: gravity must be two numbers"));
+  }
+}
 
 TEST(Container, NamesAreReadBack) {
   EXPECT_EQ(container_from(to_string(Container::kFunnel)), Container::kFunnel);
