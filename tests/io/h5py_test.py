@@ -37,7 +37,7 @@ class Samples(unittest.TestCase):
             self.assertIsNotNone(thing[()])
 
         self.file.visititems(check)
-        self.assertEqual(len(found), 41, found)
+        self.assertEqual(len(found), 42, found)
 
     def test_root(self):
         self.assertEqual(self.file.attrs["Conventions"], "H5MD-1.1 indet-1")
@@ -123,6 +123,9 @@ class Samples(unittest.TestCase):
                              (-0.125, "T_star")]:
             self.equal(f"ranges/{name}", factor * i, "<f8")
         self.equal("extremal/rays", np.arange(10.0)[None, :], "<f8")
+        ray = np.full((5, 4), -1)
+        ray[2, 1] = 0
+        self.equal("ranges/ray", ray, "<i4")
 
     def test_extremal(self):
         k = np.arange(7.0)[:, None]
