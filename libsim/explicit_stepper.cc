@@ -20,12 +20,13 @@ ExplicitStepper::ExplicitStepper(World world, const std::vector<ContactState>& c
   bodies_.resize(n);
   forces_.resize(n);
   for (int i = 0; i < n; ++i) {
-    kicks_.push_back({.vx = dt * (world_.gravity.x() + world_.load_x[i] / world_.mass[i]),
-                      .vy = dt * (world_.gravity.y() + world_.load_y[i] / world_.mass[i]),
-                      .s = dt * world_.radius[i] * world_.load_torque[i] / world_.inertia[i],
-                      .per_force = dt / world_.mass[i],
+    kicks_.push_back({.per_force = dt / world_.mass[i],
                       .per_torque = dt * world_.radius[i] * world_.radius[i] / world_.inertia[i]});
+    loads_.push_back({world_.load_x[i], world_.load_y[i], world_.load_torque[i] / world_.radius[i]});
   }
+  fall_ = dt * world_.gravity;
+  const auto is_zero = [](const Force& load) { return load.x == 0 && load.y == 0 && load.t == 0; };
+  if (std::all_of(loads_.begin(), loads_.end(), is_zero)) loads_.clear();
   neighbours_.rebuild(world_, 0);
   place_springs(contacts);
 }
@@ -178,19 +179,22 @@ void ExplicitStepper::add_forces() {
 template <bool kFriction>
 double ExplicitStepper::move() {
   double fastest = 0;
+  const double dt = dt_;
+  const double fall_x = fall_.x();
+  const double fall_y = fall_.y();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     Force& force = forces_[i];
     const Kick& kick = kicks_[i];
-    body.vx += kick.vx + kick.per_force * force.x;
-    body.vy += kick.vy + kick.per_force * force.y;
+    body.vx += fall_x + kick.per_force * force.x;
+    body.vy += fall_y + kick.per_force * force.y;
     if constexpr (kFriction) {
-      body.s += kick.s + kick.per_torque * force.t;
-      body.rolled += dt_ * body.s;
+      body.s += kick.per_torque * force.t;
+      body.rolled += dt * body.s;
     }
-    force = {0, 0, 0};
-    body.x += dt_ * body.vx;
-    body.y += dt_ * body.vy;
+    force = loads_.empty() ? Force{0, 0, 0} : loads_[i];
+    body.x += dt * body.vx;
+    body.y += dt * body.vy;
     fastest = std::max(fastest, body.vx * body.vx + body.vy * body.vy);
   }
   return fastest;
@@ -207,7 +211,11 @@ void ExplicitStepper::advance_as(int steps) {
 
 void ExplicitStepper::advance(int steps) {
   load();
-  std::fill(forces_.begin(), forces_.end(), Force{0, 0, 0});
+  if (loads_.empty()) {
+    std::fill(forces_.begin(), forces_.end(), Force{0, 0, 0});
+  } else {
+    forces_ = loads_;
+  }
   if (world_.friction.any()) {
     advance_as<true>(steps);
   } else {

@@ -36,9 +36,8 @@ class ExplicitStepper : public Stepper {
   struct Force {
     double x, y, t;  ///< Sums of forces; t: of tangential forces, the torque divided by r.
   };
-  /// What one step adds to the velocities without contacts, and per unit of force.
+  /// What one step adds to the velocities per unit of force.
   struct Kick {
-    double vx, vy, s;
     double per_force, per_torque;
   };
 
@@ -64,6 +63,8 @@ class ExplicitStepper : public Stepper {
   std::vector<Body> bodies_;
   std::vector<Force> forces_;
   std::vector<Kick> kicks_;
+  Vector2 fall_{0, 0};                          ///< What gravity adds to the velocity in a step.
+  std::vector<Force> loads_;                    ///< Of each disk; empty if there are none.
   std::vector<double> springs_, wall_springs_;  ///< One for each listed pair.
   StepperReport report_;
 };

@@ -103,6 +103,19 @@ TEST(ExplicitStepper, StabilityBoundHolds) {
   EXPECT_GT(imbalance_of(unstable.world(), unstable.forces()).worst(), 0.1);
 }
 
+TEST(ExplicitStepper, LoadsAccelerate) {
+  World world = empty_world();
+  add_disk(world, {0, 0});
+  world.load_x[0] = 2;
+  world.load_torque[0] = 3;
+  ExplicitStepper stepper(world, {}, {.k = 1e4, .gamma = 0}, 1e-3);
+  stepper.advance(1000);
+  EXPECT_NEAR(stepper.world().vx[0], 2 / world.mass[0], 1e-12);
+  EXPECT_NEAR(stepper.world().vy[0], -1, 1e-12);
+  EXPECT_NEAR(stepper.world().omega[0], 3 / world.inertia[0], 1e-12);
+  EXPECT_NEAR(stepper.world().angle[0], 1.5 / world.inertia[0], 2e-3);
+}
+
 TEST(ExplicitStepper, SpringsSurviveNewNeighbourLists) {
   // A sliding disk runs far enough that its lists are made anew; its friction must not notice.
   World world = disk_on_incline(0, 0.3);
