@@ -63,6 +63,9 @@ Command add_analyze(CLI::App& root);
 Command add_inspect(CLI::App& root);
 Command add_verify(CLI::App& root);
 Command add_export(CLI::App& root);
+Command add_simulate(CLI::App& root);
+Command add_sample(CLI::App& root);
+Command add_trajectory(CLI::App& root);
 Command add_completion(CLI::App& root);
 
 }  // namespace indet::app

@@ -139,7 +139,7 @@ GlpkProblem::Result GlpkProblem::solve(const Settings& settings) {
   const int before = glp_get_it_cnt(problem_);
   int code = 0;
   call_glpk([&] {
-    if (!settings.presolve) code = glp_factorize(problem_);
+    if (!settings.presolve && !settings.keep_factors) code = glp_factorize(problem_);
     if (code == 0) code = glp_simplex(problem_, &parameters);
   });
   pivots_ = glp_get_it_cnt(problem_) - before;

@@ -36,6 +36,7 @@ class GlpkProblem {
     int iteration_limit = 0;
     double time_limit = 0;
     bool presolve = false;
+    bool keep_factors = false;  ///< start from the factors of the last solve where they are valid
   };
   struct Entry {
     int row, column;
@@ -64,8 +65,8 @@ class GlpkProblem {
   /// Geometric scaling (skipped if the problem is well scaled), or none.
   void scale(bool on);
 
-  /// Runs the simplex method from the present basis, freshly factorised: the result depends on problem and
-  /// basis alone. Throws GlpkAborted.
+  /// Runs the simplex method from the present basis, freshly factorised unless keep_factors is set: the
+  /// result then depends on problem and basis alone. Throws GlpkAborted.
   Result solve(const Settings& settings);
   std::int64_t pivots() const;  ///< of the last solve
 

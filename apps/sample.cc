@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command.h"
+#include "indet/base/error.h"
+#include "indet/io/sampling_file.h"
+#include "indet/sim/perturb_sampling.h"
+
+namespace indet::app {
+namespace {
+
+struct SampleOptions {
+  std::string file, output;
+  std::string method = "perturb";
+  sim::PerturbOptions perturb;
+};
+
+SamplingRecord record_of(const SampleOptions& o, const sim::PerturbEnsemble& ensemble) {
+  SamplingRecord record;
+  record.method = o.method;
+  record.center = ensemble.center;
+  record.numbers = {{"r", ensemble.r},
+                    {"r_error", ensemble.r_error},
+                    {"spread", ensemble.spread},
+                    {"start_distance", ensemble.start_distance},
+                    {"samples", static_cast<double>(ensemble.samples.size())},
+                    {"accepted", ensemble.accepted},
+                    {"converged", ensemble.converged},
+                    {"worst_raw_residual", ensemble.worst_raw_residual},
+                    {"worst_residual", ensemble.worst_residual},
+                    {"chains", o.perturb.chains},
+                    {"width", o.perturb.width},
+                    {"seed", static_cast<double>(o.perturb.seed)}};
+  return record;
+}
+
+int run(SampleOptions o, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Packing packing = read_packing(o.file);
+  o.perturb.threads = context.thread_count();
+  const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(packing, o.perturb, context.progress());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const SamplingRecord record = record_of(o, ensemble);
+  if (!o.output.empty()) {
+    Provenance provenance{context.arguments, context.resolved_config, {}, {}};
+    provenance.seconds["sample"] = seconds;
+    write_sampling(o.output, packing, record, provenance);
+  }
+  if (context.json) {
+    nlohmann::json json = {{"file", o.file}, {"method", o.method}, {"seconds", seconds}};
+    for (const auto& [name, value] : record.numbers) json[name] = value;
+    std::cout << json.dump(2) << '\n';
+  } else {
+    fmt::print("r = {:.4g} ± {:.2g} mg, spread {:.4g} mg; centre {:.4g} mg from the packing's forces\n",
+               ensemble.r, ensemble.r_error, ensemble.spread, ensemble.start_distance);
+    fmt::print(
+        "{} of {} solutions accepted ({} converged); raw residual up to {:.1e} mg, polished {:.1e} mg\n",
+        ensemble.accepted, ensemble.samples.size(), ensemble.converged, ensemble.worst_raw_residual,
+        ensemble.worst_residual);
+    if (!o.output.empty()) fmt::print("written to {}\n", o.output);
+  }
+  const bool all = ensemble.accepted == static_cast<int>(ensemble.samples.size());
+  return all ? kDone : kUncertain;
+}
+
+}  // namespace
+
+Command add_sample(CLI::App& root) {
+  const auto options = std::make_shared<SampleOptions>();
+  sim::PerturbOptions& perturb = options->perturb;
+  CLI::App* command = root.add_subcommand("sample", "Sample the contact states of a packing");
+  command->add_option("file", options->file, "HDF5 file of a packing with known forces")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--method", options->method, "perturb: perturb the forces and solve again")
+      ->check(CLI::IsMember({"perturb"}))
+      ->capture_default_str();
+  command->add_option("--samples", perturb.samples, "Number of solutions")->capture_default_str();
+  command
+      ->add_option("--chains", perturb.chains,
+                   "Chains that the samples are drawn in, each from the packing's forces")
+      ->capture_default_str();
+  command->add_option("--width", perturb.width, "Forces are multiplied by numbers in 1 ± WIDTH")
+      ->capture_default_str();
+  command->add_option("--seed", perturb.seed, "Seed of the random numbers")->capture_default_str();
+  command
+      ->add_option("--tolerance", perturb.solver.tolerance,
+                   "Largest change of a force in the last sweep (mg)")
+      ->capture_default_str();
+  command->add_option("--sweeps", perturb.solver.max_sweeps, "Most sweeps a solution")->capture_default_str();
+  command->add_option("-o,--output", options->output, "HDF5 file to write: the packing with /sampling");
+  return {command, [options](const Context& context) { return run(*options, context); }};
+}
+
+}  // namespace indet::app

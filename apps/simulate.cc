@@ -1,0 +1,339 @@
+#include "indet/sim/simulate.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "indet/base/error.h"
+#include "indet/io/simulation_file.h"
+#include "indet/sim/scene_toml.h"
+#include "simulation_values.h"
+
+namespace indet::app {
+namespace {
+
+using sim::Scene;
+using sim::SimulationOptions;
+
+/// Options as given; what is empty keeps the default of the method or of the scene file.
+struct SimulateOptions {
+  std::string protocol;
+  std::string scene_file, from, output;
+  std::optional<std::uint64_t> seed;
+  // Scene.
+  std::optional<int> disks, columns;
+  std::vector<double> radius, gravity;
+  std::optional<double> density, mu, wall_mu, force_unit, width, height, funnel_angle, jitter;
+  std::string container;
+  // Method.
+  std::string preset = "stiff", damping_method = "automatic";
+  std::optional<double> stiffness, damping, dt, tolerance, alpha, restitution, tangential_restitution;
+  std::optional<int> sweeps;
+  std::optional<double> residual, kinetic_energy, time_limit;
+  // Run.
+  double every = 0;
+  double checkpoint = 600;
+  bool resume = false;
+};
+
+template <class T, class U>
+void set(T& target, const std::optional<U>& given) {
+  if (given) target = *given;
+}
+
+Scene scene_of(const SimulateOptions& o) {
+  Scene scene = o.scene_file.empty() ? Scene{} : sim::read_scene(o.scene_file);
+  set(scene.seed, o.seed);
+  set(scene.disks, o.disks);
+  set(scene.columns, o.columns);
+  if (!o.radius.empty()) {
+    scene.radius_min = o.radius[0];
+    scene.radius_max = o.radius[1];
+  }
+  if (!o.gravity.empty()) scene.gravity = {o.gravity[0], o.gravity[1]};
+  set(scene.density, o.density);
+  set(scene.friction.disk, o.mu);
+  set(scene.friction.wall, o.mu);
+  set(scene.friction.wall, o.wall_mu);
+  set(scene.force_unit, o.force_unit);
+  set(scene.width, o.width);
+  set(scene.height, o.height);
+  set(scene.funnel_angle, o.funnel_angle);
+  set(scene.jitter, o.jitter);
+  if (!o.container.empty()) scene.container = sim::container_from(o.container);
+  return scene;
+}
+
+/// Options that shape the first state have no effect on one that is read.
+void refuse_scene_options(const CLI::App& command) {
+  for (const char* name : {"--scene", "--disks", "--columns", "--radius", "--gravity", "--density",
+                           "--force-unit", "--width", "--funnel-angle", "--jitter", "--container"}) {
+    if (command.count(name) > 0) {
+      throw InputError(
+          fmt::format("{} has no effect together with --from, whose scene is that of the file", name));
+    }
+  }
+}
+
+SimulationOptions method_of(const SimulateOptions& o, bool rigid, const CLI::App& command) {
+  SimulationOptions options;
+  const auto refuse = [&](const char* name, const char* where) {
+    if (command.count(name) > 0) throw InputError(fmt::format("{} belongs to {}", name, where));
+  };
+  if (rigid) {
+    for (const char* name : {"--preset", "--stiffness", "--damping", "--damping-method"})
+      refuse(name, "md1 and md2");
+    sim::ContactDynamicsOptions& cd = options.contact_dynamics;
+    if (o.protocol == "cd2") cd = sim::from_rest_preset();
+    set(cd.dt, o.dt);
+    set(cd.tolerance, o.tolerance);
+    set(cd.max_sweeps, o.sweeps);
+    set(cd.law.alpha, o.alpha);
+    set(cd.law.restitution_n, o.restitution);
+    set(cd.law.restitution_t, o.tangential_restitution);
+    set(cd.residual, o.residual);
+  } else {
+    for (const char* name : {"--alpha", "--restitution", "--tangential-restitution"})
+      refuse(name, "cd1 and cd2");
+    options.method = sim::Method::kMolecularDynamics;
+    sim::MolecularDynamicsOptions& md = options.molecular_dynamics;
+    md = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
+    set(md.k, o.stiffness);
+    set(md.gamma, o.damping);
+    set(md.dt, o.dt);
+    set(md.tolerance, o.tolerance);
+    set(md.max_sweeps, o.sweeps);
+    set(md.residual, o.residual);
+    if (o.damping_method == "explicit") md.damping = sim::Damping::kExplicit;
+    if (o.damping_method == "implicit") md.damping = sim::Damping::kImplicit;
+  }
+  set(options.kinetic_energy, o.kinetic_energy);
+  return options;
+}
+
+/// The state that the protocol starts from.
+struct Start {
+  sim::World world;
+  std::int64_t seed = 0;
+  double height = 0;  ///< That the default time limit is reckoned from.
+  std::string description;
+};
+
+Start start_of(const SimulateOptions& o, const CLI::App& command, const Context& context) {
+  const bool second = o.protocol.back() == '2';
+  if (!o.from.empty()) {
+    refuse_scene_options(command);
+    const Packing packing = read_packing(o.from);
+    sim::Friction friction = sim::friction_of(packing, {});
+    set(friction.disk, o.mu);
+    set(friction.wall, o.mu);
+    set(friction.wall, o.wall_mu);
+    Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
+    if (o.seed) start.seed = static_cast<std::int64_t>(*o.seed);
+    start.description = "from = \"" + o.from + "\"\n" + packing.origin.config;
+    start.height = o.height.value_or(
+        Scene{.disks = packing.disk_count(), .radius_max = packing.max_radius()}.resolved().height);
+    if (second) start.world.bring_to_rest();
+    return start;
+  }
+  const Scene scene = scene_of(o);
+  Start start{.world = sim::build(scene),
+              .seed = static_cast<std::int64_t>(scene.seed),
+              .height = scene.resolved().height,
+              .description = sim::to_toml(scene.resolved())};
+  if (second) {
+    context.note("no --from: simulating cd1 first");
+    SimulationOptions first;
+    first.time_limit = sim::default_time_limit(start.world, start.height);
+    const sim::Simulation cd1 = sim::simulate(start.world, {}, first, {.progress = context.progress()});
+    start.world = sim::world_of(cd1.packing, start.world.friction);
+    start.world.bring_to_rest();
+    start.description += "from = \"cd1\"\n";
+  }
+  return start;
+}
+
+nlohmann::json to_json(const SimulateOptions& o, const Packing& packing, const SimulationRecord& record,
+                       double seconds) {
+  nlohmann::json json = {{"output", o.output},
+                         {"protocol", packing.origin.protocol},
+                         {"seed", packing.origin.seed},
+                         {"disks", packing.disk_count()},
+                         {"contacts", packing.contact_count()},
+                         {"force_unit", packing.force_unit()},
+                         {"seconds", seconds}};
+  for (const auto& [name, value] : record.numbers) json[name] = value;
+  for (const auto& [name, value] : record.texts) json[name] = value;
+  return json;
+}
+
+void print_report(const Packing& packing, const sim::Simulation& result, double seconds) {
+  const sim::Polished& polished = result.polished;
+  fmt::print("{}, seed {}: {} disks, {} contacts, mean R = {:.4g} mg, mean overlap {:.2e} r_max\n",
+             packing.origin.protocol, packing.origin.seed, packing.disk_count(), packing.contact_count(),
+             result.mean_force, result.mean_overlap);
+  fmt::print("{}\n", result.settled.reason);
+  fmt::print("balanced to         {:.2e} mg (raw {:.2e} mg), {:.2e} mg away from the raw state\n",
+             polished.residual, result.settled.residual, polished.distance);
+  fmt::print("sliding contacts    {}\n", polished.sliding);
+  fmt::print("{} steps in {:.2f} s\n", result.settled.report.steps, seconds);
+}
+
+int run(const SimulateOptions& o, const CLI::App& command, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const bool rigid = o.protocol.starts_with("cd");
+  const Start start = start_of(o, command, context);
+  SimulationOptions options = method_of(o, rigid, command);
+  options.time_limit =
+      o.time_limit.value_or(start.height > 0 ? sim::default_time_limit(start.world, start.height) : 0);
+  if (const auto reason = options.defect(start.world)) throw InputError(*reason);
+
+  const std::filesystem::path checkpoint_path = o.output + ".checkpoint";
+  const std::string fingerprint = start.description + to_toml(options) + fmt::format("every = {}\n", o.every);
+  const Provenance about{context.arguments, context.resolved_config, {}, {}};
+  Trajectory trajectory;
+  std::optional<sim::Checkpoint> resume;
+  if (o.resume && std::filesystem::exists(checkpoint_path)) {
+    const StoredCheckpoint checkpoint = read_checkpoint(checkpoint_path);
+    if (checkpoint.fingerprint != fingerprint) {
+      throw InputError(
+          fmt::format("{} belongs to a run with other options; delete it, or run without --resume",
+                      checkpoint_path.string()));
+    }
+    resume = loaded(checkpoint, start.world.friction);
+    trajectory = checkpoint.trajectory;
+    context.note(fmt::format("resuming after {} steps", resume->report.steps));
+  }
+  sim::Listener listener;
+  listener.progress = context.progress();
+  listener.frame_interval = o.every;
+  listener.on_frame = [&](const sim::Frame& frame) { trajectory.push_back(frame_of(frame, start.world)); };
+  listener.checkpoint_seconds = o.checkpoint;
+  listener.on_checkpoint = [&](const sim::Checkpoint& checkpoint) {
+    write_checkpoint(checkpoint_path, stored(checkpoint, fingerprint, trajectory), about);
+    context.note(fmt::format("{} written; go on with --resume", checkpoint_path.string()));
+  };
+  const sim::Simulation result =
+      sim::simulate(start.world, {}, options, listener, resume ? &*resume : nullptr);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  Packing packing = result.packing;
+  packing.origin = {.protocol = o.protocol, .seed = start.seed, .config = fingerprint};
+  const SimulationRecord record = record_of(result, options);
+  Provenance provenance = about;
+  provenance.seconds["simulate"] = seconds;
+  write_simulation(o.output, packing, record, trajectory, provenance);
+  std::filesystem::remove(checkpoint_path);
+
+  if (context.json) {
+    std::cout << to_json(o, packing, record, seconds).dump(2) << '\n';
+  } else {
+    print_report(packing, result, seconds);
+    fmt::print("written to {}\n", o.output);
+  }
+  if (result.polished.balanced) return kDone;
+  context.warn("the forces do not balance: " + result.polished.reason);
+  return kUncertain;
+}
+
+void add_scene_options(CLI::App& command, SimulateOptions& o) {
+  const char* group = "Scene";
+  command.add_option("--scene", o.scene_file, "TOML file of the scene")
+      ->check(CLI::ExistingFile)
+      ->group(group);
+  command.add_option("--disks", o.disks, "Number of disks (default: 95)")->group(group);
+  command.add_option("--radius", o.radius, "Smallest and largest radius (default: 0.7,1)")
+      ->delimiter(',')
+      ->expected(2)
+      ->group(group);
+  command.add_option("--density", o.density, "Mass per area (default: 1)")->group(group);
+  command.add_option("--mu", o.mu, "Friction coefficient (default: 0.3, or that of --from)")->group(group);
+  command.add_option("--wall-mu", o.wall_mu, "Friction of the walls (default: --mu)")->group(group);
+  command.add_option("--gravity", o.gravity, "Acceleration x,y (default: 0,-1)")
+      ->delimiter(',')
+      ->expected(2)
+      ->group(group);
+  command.add_option("--force-unit", o.force_unit, "Unit of force of a scene without gravity")->group(group);
+  command.add_option("--container", o.container, "box, floor, funnel or none (default: box)")->group(group);
+  command.add_option("--width", o.width, "Lx (default: 2.2 radii a column)")->group(group);
+  command.add_option("--height", o.height, "Ly of the grid and the time limit (default: 2 radii a row)")
+      ->group(group);
+  command.add_option("--funnel-angle", o.funnel_angle, "Slope of the funnel, degrees (default: 30)")
+      ->group(group);
+  command.add_option("--columns", o.columns, "Columns of the grid (default: keeps the box's shape)")
+      ->group(group);
+  command.add_option("--jitter", o.jitter, "Random part of the room in a cell, 0 to 1 (default: 1)")
+      ->group(group);
+}
+
+void add_method_options(CLI::App& command, SimulateOptions& o) {
+  const char* group = "Method (units: mg, r_max, sqrt(r_max/g))";
+  command.add_option("--dt", o.dt, "Time step (default: 5e-3 for cd, by stability for md)")->group(group);
+  command
+      .add_option("--tolerance", o.tolerance,
+                  "Largest change of a force in the last sweep (cd: 1e-6, md: 1e-7)")
+      ->group(group);
+  command.add_option("--sweeps", o.sweeps, "Most sweeps a step (cd1: 300, cd2: 3000, md: 1000)")
+      ->group(group);
+  command.add_option("--alpha", o.alpha, "cd: fraction of an overlap removed a step (default: 0.1)")
+      ->group(group);
+  command.add_option("--restitution", o.restitution, "cd: normal restitution (default: 0)")->group(group);
+  command
+      .add_option("--tangential-restitution", o.tangential_restitution,
+                  "cd: tangential restitution (default: 0)")
+      ->group(group);
+  command
+      .add_option("--preset", o.preset, "md: stiff (damping 558) or paper (damping 7.7e4), stiffness 1.2e6")
+      ->check(CLI::IsMember({"stiff", "paper"}))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--stiffness", o.stiffness, "md: spring constant k")->group(group);
+  command.add_option("--damping", o.damping, "md: damping constant")->group(group);
+  command.add_option("--damping-method", o.damping_method, "md: explicit, implicit or automatic")
+      ->check(CLI::IsMember({"automatic", "explicit", "implicit"}))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--residual", o.residual, "Static: forces balance to this (cd: 1e-4, md: 1e-6)")
+      ->group(group);
+  command
+      .add_option("--kinetic-energy", o.kinetic_energy, "Static: kinetic energy per disk (default: 1e-12)")
+      ->group(group);
+  command.add_option("--time-limit", o.time_limit, "Simulated time (default: 6 sqrt(Ly/g))")->group(group);
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& root) {
+  const auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = root.add_subcommand("simulate", "Make a packing by contact or molecular dynamics");
+  command
+      ->add_option("--protocol", options->protocol,
+                   "cd1, md1: from a grid; cd2, md2: from a cd1 packing, at rest")
+      ->required()
+      ->check(CLI::IsMember({"cd1", "md1", "cd2", "md2"}));
+  command->add_option("--seed", options->seed, "Seed of the scene (default: 0)");
+  command->add_option("--from", options->from, "Start from the positions of this packing")
+      ->check(CLI::ExistingFile);
+  command->add_option("-o,--output", options->output, "HDF5 file to write")->required();
+  command
+      ->add_option("--every", options->every,
+                   "Store a frame of the trajectory at this interval of simulated time")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--checkpoint", options->checkpoint, "Wall-clock seconds between checkpoints (0: none)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_flag("--resume", options->resume, "Go on from OUTPUT.checkpoint, if there is one");
+  add_scene_options(*command, *options);
+  add_method_options(*command, *options);
+  return {command, [options, command](const Context& context) { return run(*options, *command, context); }};
+}
+
+}  // namespace indet::app

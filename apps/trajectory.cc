@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command.h"
+#include "indet/base/error.h"
+#include "indet/io/simulation_file.h"
+#include "indet/report/trajectory_picture.h"
+
+namespace indet::app {
+namespace {
+
+struct TrajectoryOptions {
+  std::string file, output;
+  int frames = 6;
+  bool animate = false;
+  double seconds = 10;
+};
+
+int run(const TrajectoryOptions& o, const Context& context) {
+  const Packing packing = read_packing(o.file);
+  const Trajectory trajectory = read_trajectory(o.file);
+  if (trajectory.empty() || trajectory.front().positions.size() != packing.disks.size()) {
+    throw InputError(fmt::format("{}: the trajectory does not fit its packing", o.file));
+  }
+  if (std::filesystem::path(o.output).extension() != ".svg") {
+    throw InputError(fmt::format("{}: must end with .svg", o.output));
+  }
+  if (o.animate) {
+    draw_trajectory_animation(o.output, packing, trajectory, o.seconds);
+  } else {
+    draw_trajectory_strip(o.output, packing, trajectory, o.frames);
+  }
+  if (context.json) {
+    std::cout << nlohmann::json{{"output", o.output},
+                                {"frames", trajectory.size()},
+                                {"begin", trajectory.front().time},
+                                {"end", trajectory.back().time}}
+                     .dump(2)
+              << '\n';
+  } else {
+    fmt::print("{} frames from t = {:.4g} to {:.4g}, drawn in {}\n", trajectory.size(),
+               trajectory.front().time, trajectory.back().time, o.output);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command add_trajectory(CLI::App& root) {
+  const auto options = std::make_shared<TrajectoryOptions>();
+  CLI::App* command =
+      root.add_subcommand("trajectory", "Draw the trajectory of a simulation (simulate --every)");
+  command->add_option("file", options->file, "HDF5 file with a trajectory")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("-o,--output", options->output, "SVG file to write")->required();
+  command->add_option("--frames", options->frames, "Frames side by side in the strip")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--animate", options->animate, "One animated picture of all frames instead of a strip");
+  command->add_option("--seconds", options->seconds, "Duration of the animation")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  return {command, [options](const Context& context) { return run(*options, context); }};
+}
+
+}  // namespace indet::app

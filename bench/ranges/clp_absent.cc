@@ -1,0 +1,7 @@
+#include "rivals.h"
+
+namespace indet::bench {
+
+std::optional<Tally> natural_order_clp(const ForcePolytope&) { return {}; }
+
+}  // namespace indet::bench

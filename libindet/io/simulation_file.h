@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "indet/io/packing_file.h"
+#include "indet/packing/packing.h"
+
+namespace indet {
+
+/// What a simulation adds to the file of the packing that it made, as plain values: /simulation holds what
+/// happened and the raw contacts, /trajectory the states on the way.
+
+/// /simulation: numbers and texts become attributes, the contacts datasets as in /contacts.
+struct SimulationRecord {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> texts;
+  std::vector<Contact> raw_contacts;  ///< Of the last step, before the polish.
+};
+
+/// One state on the way.
+struct TrajectoryFrame {
+  double time = 0;  ///< Scene's own unit.
+  std::vector<Vector2> positions, velocities;
+  std::vector<double> angles, angular_velocities;
+  std::vector<Contact> contacts;
+};
+
+/// /trajectory: time [F], position [F, N, 2] and so on; contacts of frame f are rows first_contact[f] …
+/// first_contact[f+1] − 1 of the contact datasets.
+using Trajectory = std::vector<TrajectoryFrame>;
+
+void write_simulation(const std::filesystem::path& path, const Packing& packing,
+                      const SimulationRecord& record, const Trajectory& trajectory,
+                      const Provenance& provenance);
+
+bool file_has_trajectory(const std::filesystem::path& path);
+/// Throws InputError if the file has none.
+Trajectory read_trajectory(const std::filesystem::path& path);
+
+/// A run that can be continued: its state as a packing (with velocities), and for each contact what is not in
+/// one.
+struct StoredCheckpoint {
+  std::string fingerprint;  ///< Text of the options: a run continues only with the same.
+  Packing state;
+  std::vector<double> spring;  ///< Of each contact.
+  std::vector<double> change;  ///< Of each contact.
+  std::map<std::string, std::int64_t> counters;
+  Trajectory trajectory;  ///< So far.
+};
+
+void write_checkpoint(const std::filesystem::path& path, const StoredCheckpoint& checkpoint,
+                      const Provenance& provenance);
+StoredCheckpoint read_checkpoint(const std::filesystem::path& path);
+
+}  // namespace indet

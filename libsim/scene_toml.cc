@@ -1,0 +1,168 @@
+#include "indet/sim/scene_toml.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <optional>
+
+#include "indet/base/error.h"
+
+namespace indet::sim {
+namespace {
+
+/// One table of the file, with messages that name the place.
+class Reader {
+ public:
+  explicit Reader(std::string source) : source_(std::move(source)) {}
+
+  [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& reason) const {
+    throw InputError(fmt::format("{}:{}: {} {}", source_, node.source().begin.line, key, reason));
+  }
+  double number(const toml::node& node, const std::string& key) const {
+    if (const auto value = node.value<double>()) return *value;
+    fail(node, key, "must be a number");
+  }
+  std::int64_t integer(const toml::node& node, const std::string& key) const {
+    if (const auto* value = node.as_integer()) return value->get();
+    fail(node, key, "must be an integer");
+  }
+  std::string text(const toml::node& node, const std::string& key) const {
+    if (const auto* value = node.as_string()) return value->get();
+    fail(node, key, "must be a string");
+  }
+  Vector2 pair(const toml::node& node, const std::string& key) const {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() != 2) fail(node, key, "must be two numbers");
+    return {number(*array->get(0), key), number(*array->get(1), key)};
+  }
+
+ private:
+  std::string source_;
+};
+
+Wall read_wall(const Reader& reader, const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) reader.fail(node, "wall", "must be a table");
+  Wall wall;
+  bool has_point = false;
+  bool has_normal = false;
+  for (const auto& [key, value] : *table) {
+    const std::string name(key.str());
+    if (name == "name") {
+      wall.name = reader.text(value, name);
+    } else if (name == "point") {
+      wall.point = reader.pair(value, name);
+      has_point = true;
+    } else if (name == "normal") {
+      wall.normal = reader.pair(value, name);
+      if (!(wall.normal.norm() > 0)) reader.fail(value, name, "must not be zero");
+      wall.normal.normalize();
+      has_normal = true;
+    } else {
+      reader.fail(value, name, "is not a key of a wall: they are name, point, normal");
+    }
+  }
+  if (!has_point || !has_normal) reader.fail(node, "wall", "needs a point and a normal");
+  return wall;
+}
+
+Friction read_friction(const Reader& reader, const toml::node& node, Friction friction) {
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, value] : *table) {
+      if (key.str() == "disk") {
+        friction.disk = reader.number(value, "friction.disk");
+      } else if (key.str() == "wall") {
+        friction.wall = reader.number(value, "friction.wall");
+      } else {
+        reader.fail(value, std::string(key.str()), "is not a key of friction: they are disk and wall");
+      }
+    }
+    return friction;
+  }
+  const double mu = reader.number(node, "friction");
+  return {mu, mu};
+}
+
+void read_key(const Reader& reader, const std::string& key, const toml::node& value, Scene& scene) {
+  if (key == "disks") {
+    scene.disks = static_cast<int>(reader.integer(value, key));
+  } else if (key == "radius") {
+    const Vector2 radius = reader.pair(value, key);
+    scene.radius_min = radius.x();
+    scene.radius_max = radius.y();
+  } else if (key == "density") {
+    scene.density = reader.number(value, key);
+  } else if (key == "friction") {
+    scene.friction = read_friction(reader, value, scene.friction);
+  } else if (key == "gravity") {
+    scene.gravity = reader.pair(value, key);
+  } else if (key == "force_unit") {
+    scene.force_unit = reader.number(value, key);
+  } else if (key == "container") {
+    scene.container = container_from(reader.text(value, key));
+  } else if (key == "width") {
+    scene.width = reader.number(value, key);
+  } else if (key == "height") {
+    scene.height = reader.number(value, key);
+  } else if (key == "funnel_angle") {
+    scene.funnel_angle = reader.number(value, key);
+  } else if (key == "columns") {
+    scene.columns = static_cast<int>(reader.integer(value, key));
+  } else if (key == "jitter") {
+    scene.jitter = reader.number(value, key);
+  } else if (key == "seed") {
+    scene.seed = static_cast<std::uint64_t>(reader.integer(value, key));
+  } else if (key == "wall") {
+    const toml::array* walls = value.as_array();
+    if (walls == nullptr) reader.fail(value, key, "must be written as [[wall]]");
+    scene.walls.clear();
+    for (const toml::node& wall : *walls) scene.walls.push_back(read_wall(reader, wall));
+  } else {
+    reader.fail(value, key, "is not a key of a scene");
+  }
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path, const Scene& defaults) {
+  toml::table table;
+  try {
+    table = toml::parse_file(path.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
+  }
+  Scene scene = defaults;
+  const Reader reader(path.string());
+  for (const auto& [key, value] : table) read_key(reader, std::string(key.str()), value, scene);
+  if (const auto reason = scene.defect()) throw InputError(fmt::format("{}: {}", path.string(), *reason));
+  return scene;
+}
+
+std::string to_toml(const Scene& scene) {
+  std::string text;
+  const auto line = [&](const std::string& key, const std::string& value) {
+    text += key + " = " + value + "\n";
+  };
+  // {} prints the shortest decimal number that reads back as the same double; TOML wants floats as such or
+  // integers.
+  line("disks", fmt::format("{}", scene.disks));
+  line("radius", fmt::format("[{}, {}]", scene.radius_min, scene.radius_max));
+  line("density", fmt::format("{}", scene.density));
+  line("friction", fmt::format("{{ disk = {}, wall = {} }}", scene.friction.disk, scene.friction.wall));
+  line("gravity", fmt::format("[{}, {}]", scene.gravity.x(), scene.gravity.y()));
+  line("force_unit", fmt::format("{}", scene.force_unit));
+  line("container", fmt::format("\"{}\"", to_string(scene.container)));
+  line("width", fmt::format("{}", scene.width));
+  line("height", fmt::format("{}", scene.height));
+  line("funnel_angle", fmt::format("{}", scene.funnel_angle));
+  line("columns", fmt::format("{}", scene.columns));
+  line("jitter", fmt::format("{}", scene.jitter));
+  line("seed", fmt::format("{}", scene.seed));
+  for (const Wall& wall : scene.walls) {
+    text += fmt::format("[[wall]]\nname = \"{}\"\npoint = [{}, {}]\nnormal = [{}, {}]\n", wall.name,
+                        wall.point.x(), wall.point.y(), wall.normal.x(), wall.normal.y());
+  }
+  return text;
+}
+
+}  // namespace indet::sim

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "indet/sim/explicit_stepper.h"
+#include "indet/sim/implicit_stepper.h"
+#include "indet/sim/polish.h"
+#include "indet/sim/settle.h"
+
+namespace indet::sim {
+
+/// Contact dynamics: rigid disks. Times in units of √(r_max/g), forces in mg (world.h).
+struct ContactDynamicsOptions {
+  double dt = 5e-3;
+  double tolerance = 1e-6;  ///< Largest change of a contact force in the last sweep.
+  int max_sweeps = 300;     ///< A step; fewer than 100 are not enough to settle.
+  RigidLaw law;
+  double residual = 1e-4;  ///< A state is static if its raw forces balance to this.
+};
+
+/// For runs that start from F = 0 at rest, cd2: without impulses to start from, 300 sweeps leave the first
+/// steps so far from their solution that the disks are thrown against each other, which locks in forces (mean
+/// R 11.7 instead of 10 mg).
+ContactDynamicsOptions from_rest_preset();
+
+/// How damping forces enter a step of molecular dynamics.
+enum class Damping {
+  kAutomatic,  ///< Implicit where the contact of two disks is overdamped.
+  kExplicit,   ///< From the velocities before the step; dt is bounded by stability.
+  kImplicit,   ///< From the velocities after the step, springs too; any dt.
+};
+
+/// Molecular dynamics: springs with dashpots. k in mg/r_max, γ in mg/r_max √(r_max/g).
+struct MolecularDynamicsOptions {
+  double k = 1.2e6;
+  double gamma = 558;
+  Damping damping = Damping::kAutomatic;
+  double dt = 0;            ///< 0: half the stability bound (explicit), 1e-3 (implicit).
+  double tolerance = 1e-7;  ///< Of the implicit damping: largest change of a contact force in the last sweep.
+  int max_sweeps = 1000;
+  /// A state is static if its elastic forces balance to this. Rounding of the positions alone leaves about
+  /// 1e-7 where k = 1.2e6.
+  double residual = 1e-6;
+};
+
+/// γ = 558: two disks of mean mass collide with a restitution of 0.3. γ = 7.7e4: the paper's damping.
+MolecularDynamicsOptions stiff_preset();
+MolecularDynamicsOptions paper_preset();
+
+enum class Method { kContactDynamics, kMolecularDynamics };
+
+struct SimulationOptions {
+  Method method = Method::kContactDynamics;
+  ContactDynamicsOptions contact_dynamics;
+  MolecularDynamicsOptions molecular_dynamics;
+  double kinetic_energy = 1e-12;  ///< Per disk, mg r_max: below it a state may be static.
+  int calm_steps = 50;
+  double time_limit = 0;  ///< > 0.
+  PolishOptions polish = {};
+
+  /// The reason why these options cannot be used for a world, if there is one (for example an unstable dt).
+  std::optional<std::string> defect(const World& world) const;
+};
+
+/// What a simulation left.
+struct Simulation {
+  Packing packing;    ///< Contacts that transmit force, with the polished forces (raw ones if not balanced).
+  Packing raw;        ///< Every contact of the last step, with its raw forces.
+  Polished polished;  ///< Of `raw`.
+  Settled settled;
+  double dt = 0;  ///< That was used; units of time.
+  bool implicit_damping = false;
+  double mean_overlap = 0;  ///< Mean of −gap over the contacts of `packing`, gaps > 0 counting as 0; r_max.
+  double mean_force = 0;    ///< Mean R of `packing`, mg.
+};
+
+/// Lets a world come to rest. `contacts`: what the contacts remember (empty: nothing). Throws InputError with
+/// the options' defect.
+Simulation simulate(const World& start, const std::vector<ContactState>& contacts,
+                    const SimulationOptions& options, const Listener& listener = {},
+                    const Checkpoint* resume = nullptr);
+
+/// The stepper that `simulate` uses. Precondition: options.defect(world) is empty.
+std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<ContactState>& contacts,
+                                      const SimulationOptions& options);
+
+/// 6 √(height/g), about twice the time in which a disk falls from that height; in units of time.
+double default_time_limit(const World& world, double height);
+
+}  // namespace indet::sim

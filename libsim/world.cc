@@ -1,0 +1,157 @@
+#include "indet/sim/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "indet/base/error.h"
+
+namespace indet::sim {
+
+void World::add(const Disk& disk) {
+  id.push_back(disk.id);
+  x.push_back(disk.position.x());
+  y.push_back(disk.position.y());
+  angle.push_back(disk.angle);
+  vx.push_back(disk.velocity.x());
+  vy.push_back(disk.velocity.y());
+  omega.push_back(disk.angular_velocity);
+  radius.push_back(disk.radius);
+  mass.push_back(disk.mass);
+  inertia.push_back(disk.inertia);
+  load_x.push_back(disk.load.x());
+  load_y.push_back(disk.load.y());
+  load_torque.push_back(disk.load.z());
+}
+
+Units World::units() const {
+  Units units;
+  if (x.empty()) return units;
+  double total = 0;
+  double largest = 0;
+  for (int i = 0; i < size(); ++i) {
+    total += mass[i];
+    largest = std::max(largest, radius[i]);
+  }
+  units.mass = total / size();
+  units.length = largest;
+  units.force = named_force_unit > 0 ? named_force_unit : gravity.norm() * units.mass;
+  if (!(units.force > 0)) {
+    throw InputError("the scene has no gravity, so it must name its unit of force (force_unit)");
+  }
+  units.time = std::sqrt(units.mass * units.length / units.force);
+  return units;
+}
+
+double World::kinetic_energy() const {
+  double energy = 0;
+  for (int i = 0; i < size(); ++i) {
+    energy += 0.5 * (mass[i] * (vx[i] * vx[i] + vy[i] * vy[i]) + inertia[i] * omega[i] * omega[i]);
+  }
+  return energy;
+}
+
+double World::fastest_speed() const {
+  double fastest = 0;
+  for (int i = 0; i < size(); ++i) {
+    fastest = std::max({fastest, std::sqrt(vx[i] * vx[i] + vy[i] * vy[i]), radius[i] * std::abs(omega[i])});
+  }
+  return fastest;
+}
+
+void World::bring_to_rest() {
+  std::fill(vx.begin(), vx.end(), 0.0);
+  std::fill(vy.begin(), vy.end(), 0.0);
+  std::fill(omega.begin(), omega.end(), 0.0);
+}
+
+World world_of(const Packing& packing, const Friction& friction) {
+  World world;
+  for (const Disk& disk : packing.disks) world.add(disk);
+  world.walls = packing.walls;
+  world.gravity = packing.gravity;
+  world.friction = friction;
+  world.named_force_unit = packing.named_force_unit;
+  return world;
+}
+
+Friction friction_of(const Packing& packing, const Friction& fallback) {
+  std::optional<double> disk;
+  std::optional<double> wall;
+  for (const Contact& contact : packing.contacts) {
+    std::optional<double>& seen = contact.b.is_wall() ? wall : disk;
+    if (seen && *seen != contact.mu) {
+      throw InputError(
+          fmt::format("contacts of one kind have different friction coefficients ({} and {}); give --mu",
+                      *seen, contact.mu));
+    }
+    seen = contact.mu;
+  }
+  return {disk.value_or(fallback.disk), wall.value_or(fallback.wall)};
+}
+
+Packing packing_of(const World& world, const std::vector<ContactState>& contacts) {
+  Packing packing;
+  packing.walls = world.walls;
+  packing.gravity = world.gravity;
+  packing.named_force_unit = world.named_force_unit;
+  for (int i = 0; i < world.size(); ++i) {
+    packing.disks.push_back(Disk{.id = world.id[i],
+                                 .position = {world.x[i], world.y[i]},
+                                 .radius = world.radius[i],
+                                 .mass = world.mass[i],
+                                 .inertia = world.inertia[i],
+                                 .angle = world.angle[i],
+                                 .velocity = {world.vx[i], world.vy[i]},
+                                 .angular_velocity = world.omega[i],
+                                 .load = {world.load_x[i], world.load_y[i], world.load_torque[i]}});
+  }
+  for (const ContactState& state : contacts) {
+    Contact contact;
+    contact.a = DiskId(state.a);
+    contact.b = Body::from_code(state.b);
+    contact.normal = geometric_normal(packing, contact.a, contact.b);
+    contact.gap = geometric_gap(packing, contact.a, contact.b);
+    contact.mu = state.mu;
+    contact.R = state.R;
+    contact.T = state.T;
+    packing.contacts.push_back(contact);
+  }
+  return packing;
+}
+
+Imbalance imbalance_of(const World& world, const std::vector<ContactState>& contacts) {
+  const int n = world.size();
+  std::vector<double> fx(n), fy(n), torque(n);
+  for (int i = 0; i < n; ++i) {
+    fx[i] = world.mass[i] * world.gravity.x() + world.load_x[i];
+    fy[i] = world.mass[i] * world.gravity.y() + world.load_y[i];
+    torque[i] = world.load_torque[i] / world.radius[i];
+  }
+  for (const ContactState& c : contacts) {
+    const double x = c.R * c.nx + c.T * c.ny;
+    const double y = c.R * c.ny - c.T * c.nx;
+    fx[c.a] += x;
+    fy[c.a] += y;
+    torque[c.a] += c.T;
+    if (c.b >= 0) {
+      fx[c.b] -= x;
+      fy[c.b] -= y;
+      torque[c.b] += c.T;
+    }
+  }
+  const double unit = world.units().force;
+  Imbalance result;
+  for (int i = 0; i < n; ++i) {
+    const double force = std::max(std::abs(fx[i]), std::abs(fy[i])) / unit;
+    const double turn = std::abs(torque[i]) / unit;
+    if (std::max(force, turn) > result.worst() || result.disk < 0) result.disk = i;
+    result.force = std::max(result.force, force);
+    result.torque = std::max(result.torque, turn);
+  }
+  return result;
+}
+
+}  // namespace indet::sim

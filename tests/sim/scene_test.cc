@@ -1,0 +1,136 @@
+#include "indet/sim/scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "indet/base/error.h"
+#include "indet/sim/scene_toml.h"
+#include "support/temporary_folder.h"
+
+namespace indet::sim {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Scene, DefaultIsThePapersBox) {
+  const Scene full = Scene{}.resolved();
+  EXPECT_EQ(full.columns, 5);
+  EXPECT_DOUBLE_EQ(full.width, 11);
+  EXPECT_DOUBLE_EQ(full.height, 38);
+  const World world = build(Scene{});
+  EXPECT_EQ(world.size(), 95);
+  EXPECT_EQ(world.walls.size(), 3u);
+}
+
+TEST(Scene, DisksStayApartAndInside) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Scene scene;
+    scene.disks = 137;
+    scene.seed = seed;
+    const World world = build(scene);
+    const double width = scene.resolved().width;
+    for (int i = 0; i < world.size(); ++i) {
+      EXPECT_GE(world.radius[i], 0.7);
+      EXPECT_LT(world.radius[i], 1);
+      EXPECT_GE(world.x[i], world.radius[i]);
+      EXPECT_LE(world.x[i], width - world.radius[i]);
+      EXPECT_GE(world.y[i], world.radius[i]);
+      for (int j = 0; j < i; ++j) {
+        EXPECT_GE(std::hypot(world.x[i] - world.x[j], world.y[i] - world.y[j]) + 1e-12,
+                  world.radius[i] + world.radius[j]);
+      }
+    }
+  }
+}
+
+TEST(Scene, SeedDecidesEverything) {
+  EXPECT_EQ(build(Scene{.seed = 3}).x, build(Scene{.seed = 3}).x);
+  EXPECT_NE(build(Scene{.seed = 3}).radius, build(Scene{.seed = 4}).radius);
+}
+
+TEST(Scene, FunnelLeadsToTheMiddle) {
+  Scene scene;
+  scene.container = Container::kFunnel;
+  scene.funnel_angle = 40;
+  const World world = build(scene);
+  for (int i = 0; i < world.size(); ++i) {
+    for (const Wall& wall : world.walls) {
+      EXPECT_GE((Vector2(world.x[i], world.y[i]) - wall.point).dot(wall.normal) + 1e-12, world.radius[i]);
+    }
+  }
+}
+
+struct BadScene {
+  const char* name;
+  void (*spoil)(Scene&);
+  const char* reason;
+};
+
+class SceneBad : public ::testing::TestWithParam<BadScene> {};
+
+TEST_P(SceneBad, IsRefusedWithTheReason) {
+  Scene scene;
+  GetParam().spoil(scene);
+  ASSERT_TRUE(scene.defect().has_value());
+  EXPECT_THAT(*scene.defect(), HasSubstr(GetParam().reason));
+  EXPECT_THROW(build(scene), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SceneBad,
+    ::testing::Values(BadScene{"NoDisks", [](Scene& s) { s.disks = 0; }, "disks"},
+                      BadScene{"Radii", [](Scene& s) { s.radius_min = 2; }, "radii"},
+                      BadScene{"Density", [](Scene& s) { s.density = 0; }, "density"},
+                      BadScene{"Friction", [](Scene& s) { s.friction.wall = -1; }, "friction"},
+                      BadScene{"NoUnit",
+                               [](Scene& s) {
+                                 s.gravity = {0, 0};
+                               },
+                               "force_unit"},
+                      BadScene{"Jitter", [](Scene& s) { s.jitter = 2; }, "jitter"},
+                      BadScene{"Narrow",
+                               [](Scene& s) {
+                                 s.width = 9;
+                                 s.columns = 5;
+                               },
+                               "too small"},
+                      BadScene{"Funnel", [](Scene& s) { s.funnel_angle = 95; }, "funnel_angle"},
+                      BadScene{"Wall",
+                               [](Scene& s) {
+                                 s.walls.push_back(Wall{.normal = {0, 2}, .name = ""});
+                               },
+                               "length 1"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(SceneToml, ReadsBackWhatItWrites) {
+  Scene scene;
+  scene.disks = 12;
+  scene.radius_min = 1.0 / 3;
+  scene.friction = {0.1, 0.7};
+  scene.container = Container::kFloor;
+  scene.seed = 77;
+  scene.walls.push_back(Wall{.point = {0.5, -3}, .normal = {0.6, 0.8}, .name = "ramp"});
+  const std::string text = to_toml(scene);
+  const test::TemporaryFolder folder;
+  folder.write("scene.toml", text);
+  EXPECT_EQ(to_toml(read_scene(folder / "scene.toml")), text);
+}
+
+TEST(SceneToml, NamesTheLineThatIsWrong) {
+  const test::TemporaryFolder folder;
+  folder.write("scene.toml", "disks = 3\ngravity = 1\n");
+  try {
+    read_scene(folder / "scene.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("scene.toml:2: gravity must be two numbers"));
+  }
+}
+
+TEST(Container, NamesAreReadBack) {
+  EXPECT_EQ(container_from(to_string(Container::kFunnel)), Container::kFunnel);
+  EXPECT_THROW(container_from("bucket"), InputError);
+}
+
+}  // namespace
+}  // namespace indet::sim

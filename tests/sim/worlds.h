@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "indet/sim/scene.h"
+#include "indet/sim/simulate.h"
+
+namespace indet::sim {
+
+/// Disks of density 1 (mass π r², inertia m r²/2) and no walls; g = 1 downwards unless changed.
+inline World empty_world(double mu = 0.3) {
+  World world;
+  world.gravity = {0, -1};
+  world.friction = {mu, mu};
+  return world;
+}
+
+inline void add_disk(World& world, Vector2 position, double radius = 1, Vector2 velocity = {0, 0},
+                     double omega = 0) {
+  const double mass = std::numbers::pi * radius * radius;
+  world.add(Disk{.id = world.size(),
+                 .position = position,
+                 .radius = radius,
+                 .mass = mass,
+                 .inertia = mass * radius * radius / 2,
+                 .velocity = velocity,
+                 .angular_velocity = omega});
+}
+
+inline void add_wall(World& world, Vector2 point, Vector2 normal) {
+  world.walls.push_back(
+      Wall{.id = static_cast<int>(world.walls.size()), .point = point, .normal = normal, .name = ""});
+}
+
+/// One disk on the floor y = 0, with gravity tilted by `slope`: an incline that leads towards +x.
+///
+///        ___
+///       /   \  → x      g = (sin slope, −cos slope)
+///       \___/
+///     ===========
+inline World disk_on_incline(double slope, double mu) {
+  World world = empty_world(mu);
+  world.gravity = {std::sin(slope), -std::cos(slope)};
+  add_wall(world, {0, 0}, {0, 1});
+  add_disk(world, {0, 1});
+  return world;
+}
+
+inline SimulationOptions contact_dynamics(double time_limit) {
+  SimulationOptions options;
+  options.time_limit = time_limit;
+  return options;
+}
+
+inline SimulationOptions molecular_dynamics(const MolecularDynamicsOptions& preset, double time_limit) {
+  SimulationOptions options;
+  options.method = Method::kMolecularDynamics;
+  options.molecular_dynamics = preset;
+  options.time_limit = time_limit;
+  return options;
+}
+
+/// Runs a world for `time` (units of time), whether it comes to rest or not.
+inline World run(const World& world, const SimulationOptions& options, double time) {
+  const auto stepper = make_stepper(world, {}, options);
+  stepper->advance(static_cast<int>(std::lround(time * world.units().time / stepper->dt())));
+  return stepper->world();
+}
+
+}  // namespace indet::sim
