@@ -18,15 +18,13 @@ LIBRARY, COMMANDS = (pathlib.Path(sys.argv.pop()) for _ in range(2))
 ORDER = ["base", "packing", "contact", "nullspace", "lp", "polytope", "range", "verify", "io", "report"]
 HEADERS = {"base": "error.h", "packing": "packing.h", "contact": "contact_matrix.h", "nullspace": "null_space.h",
            "lp": "lp_solver.h", "polytope": "force_polytope.h", "range": "analyze.h", "verify": "verify.h",
-           "io": "packing_file.h", "report": "packing_picture.h"}
+           "io": "packing_file.h", "report": "packing_picture.h", "sim": "world.h"}
 
 
 def compile_command(stage):
     """The command that compiles some source of the stage, without its source and output."""
     for entry in json.loads(COMMANDS.read_text()):
-        if f"/libindet/{stage}/" not in entry["file"] or not entry["file"].endswith(".cc"):
-            continue
-        if "/tests/" in entry["file"] or f"indet_{stage}.dir" not in entry["command"]:
+        if f"CMakeFiles/indet_{stage}.dir/" not in entry["command"]:
             continue
         words = [word for word in shlex.split(entry["command"]) if not word.endswith("ccache")]
         output = words.index("-o")
@@ -72,6 +70,11 @@ class Direction(unittest.TestCase):
                 visible = visible_from(stage)
                 self.assertIn(stage, visible)
                 self.assertLessEqual(visible, set(ORDER[:number + 1]))
+
+    def test_simulators_see_the_packing_type_alone(self):
+        self.assertEqual(visible_from("sim"), {"base", "packing", "sim"})
+        for stage in ORDER:
+            self.assertNotIn("sim", visible_from(stage))
 
     def test_the_verifier_includes_nothing_of_the_solver(self):
         sources = sorted((LIBRARY / "verify").glob("*.*"))
