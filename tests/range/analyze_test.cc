@@ -263,6 +263,11 @@ TEST(Analyze, LatticePileAgreesWithEnumeration) {
   }
 }
 
+TEST(Analyze, LargerLatticePileAgreesWithEnumeration) {
+  for (const double mu : {0.4, 0.6})
+    expect_as_enumerated(zoo::lattice_pile(3, mu), analyze(zoo::lattice_pile(3, mu)));
+}
+
 TEST(Analyze, SmallPilesAgreeWithEnumerationOfAllVertices) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Packing packing = zoo::random_pile(seed, 2 + static_cast<int>(seed % 4), seed % 2 == 0 ? -1 : 0.4);

@@ -97,7 +97,11 @@ AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
   return AssertionSuccess();
 }
 
-AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance) {
+namespace {
+
+/// `view` makes of a state what is compared.
+template <class View>
+AssertionResult same_ranges_by(const ForceRanges& a, const ForceRanges& b, double tolerance, View view) {
   if (a.status != b.status)
     return AssertionFailure() << to_string(a.status) << " against " << to_string(b.status);
   if (a.dim != b.dim) return AssertionFailure() << "dim " << a.dim << " against " << b.dim;
@@ -117,12 +121,24 @@ AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double t
       const int second = b.vertex(i, j);
       if ((first < 0) != (second < 0)) return AssertionFailure() << "a state is missing" << where();
       if (first < 0) continue;
-      const auto result =
-          same_entries(a.states.row(first) / a.force_unit, b.states.row(second) / b.force_unit, tolerance);
+      const auto result = same_entries(view(a.states.row(first) / a.force_unit),
+                                       view(b.states.row(second) / b.force_unit), tolerance);
       if (!result) return AssertionFailure() << result.message() << " in the state" << where();
     }
   }
   return AssertionSuccess();
+}
+
+}  // namespace
+
+AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance) {
+  return same_ranges_by(a, b, tolerance, [](const Eigen::RowVectorXd& state) { return state; });
+}
+
+AssertionResult same_ranges_and_weights(const ForceRanges& a, const ForceRanges& b, double tolerance) {
+  return same_ranges_by(a, b, tolerance, [](const Eigen::RowVectorXd& state) {
+    return Eigen::RowVectorXd::Constant(1, state(Eigen::seq(0, Eigen::last, 2)).sum());
+  });
 }
 
 ForceRanges permuted(const ForceRanges& ranges, const std::vector<int>& contacts) {

@@ -22,6 +22,11 @@ testing::AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b);
 /// `tolerance` relative to max(1, |value|) mg. (Numbers of states may differ.)
 testing::AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance);
 
+/// The same, but of the extremal states only the total normal force: what must agree where several states of
+/// smallest total normal force attain an optimum, and the choice between them is arbitrary.
+testing::AssertionResult same_ranges_and_weights(const ForceRanges& a, const ForceRanges& b,
+                                                 double tolerance);
+
 /// How a ForceRanges would read with the contacts in another order (contact k of the result is contacts[k]),
 /// in another unit of force, or with all tangential forces reversed. Values, outcomes, unique flags, vertices
 /// and states only.

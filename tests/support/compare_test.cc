@@ -54,6 +54,11 @@ TEST(Compare, SameRangesSeesValueOutcomeFlagAndState) {
   changed = ranges;
   changed.states.array() += 1e-6;
   EXPECT_FALSE(same_ranges(ranges, changed, 1e-9));
+  EXPECT_FALSE(same_ranges_and_weights(ranges, changed, 1e-9));
+  changed = ranges;
+  changed.states.col(1).array() += 1e-6;
+  EXPECT_FALSE(same_ranges(ranges, changed, 1e-9));
+  EXPECT_TRUE(same_ranges_and_weights(ranges, changed, 1e-9)) << "normal forces are the same";
   EXPECT_FALSE(same_ranges(ranges, mirrored(ranges), 1e-9));
 }
 
