@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ enum ExitStatus : int {
   kBadInput = 3,  ///< Nothing was written.
   kNoAdmissibleState = 4,
   kUncertain = 5  ///< Done, but something is imprecise or not solved.
+};
+
+/// The options contradict each other or something is missing: exit status 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// What every subcommand shares: the global options, the terminal, the configuration that was resolved.

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "command.h"
 #include "indet/base/error.h"
@@ -39,22 +39,28 @@ const ForceRanges& need_ranges(const std::optional<ForceRanges>& ranges, const s
   throw InputError(fmt::format("{}: {} needs force ranges; compute them with indet analyze", file, what));
 }
 
-/// `state:K`, `R_max:17` and the like: the text before and the number after the colon.
-std::pair<std::string, std::int64_t> split_state(const std::string& state) {
-  const std::size_t colon = state.find(':');
+/// What --state says: its kind ("sim", "max-norm", "state", "R_min", …) and the number after the colon.
+struct StateName {
+  std::string kind;
   std::int64_t number = -1;
-  if (colon == std::string::npos || !parse_number(std::string_view(state).substr(colon + 1), &number) ||
-      number < 0) {
-    throw InputError(fmt::format(
-        "--state {}: must be sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C",
-        state));
+};
+
+std::optional<StateName> parse_state(const std::string& text) {
+  if (text == "sim" || text == "max-norm") return StateName{text};
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return {};
+  StateName name{text.substr(0, colon)};
+  if (!parse_number(std::string_view(text).substr(colon + 1), &name.number) || name.number < 0) return {};
+  for (const char* kind : {"state", "R_min", "R_max", "T_min", "T_max"}) {
+    if (name.kind == kind) return name;
   }
-  return {state.substr(0, colon), number};
+  return {};
 }
 
 ChosenState choose_state(const ExportOptions& options, const Packing& packing,
                          const std::optional<ForceRanges>& ranges) {
-  if (options.state == "sim") {
+  const StateName name = parse_state(options.state).value();
+  if (name.kind == "sim") {
     return {packing.simulated_forces(),
             packing.has_simulated_forces() ? "simulated state" : "forces unknown"};
   }
@@ -66,18 +72,18 @@ ChosenState choose_state(const ExportOptions& options, const Packing& packing,
     }
     return {r.states.row(k).transpose(), description};
   };
-  if (options.state == "max-norm") return row(r.largest_norm, "extremal state of largest norm");
-  const auto [kind, number] = split_state(options.state);
-  if (kind == "state") return row(number, fmt::format("extremal state {}", number));
-  for (const Column column : {kMinR, kMaxR, kMinT, kMaxT}) {
-    if (kind != to_string(column)) continue;
-    if (number >= packing.contact_count()) {
-      throw InputError(
-          fmt::format("--state {}: the contacts are 0 … {}", options.state, packing.contact_count() - 1));
-    }
-    return row(r.vertex(number, column), fmt::format("extremal state of {} of contact {}", kind, number));
+  if (name.kind == "max-norm") return row(r.largest_norm, "extremal state of largest norm");
+  if (name.kind == "state") return row(name.number, fmt::format("extremal state {}", name.number));
+  if (name.number >= packing.contact_count()) {
+    throw InputError(
+        fmt::format("--state {}: the contacts are 0 … {}", options.state, packing.contact_count() - 1));
   }
-  throw InputError(fmt::format("--state {}: {} is unknown", options.state, kind));
+  Column column = kMinR;
+  for (const Column other : {kMaxR, kMinT, kMaxT}) {
+    if (name.kind == to_string(other)) column = other;
+  }
+  return row(r.vertex(name.number, column),
+             fmt::format("extremal state of {} of contact {}", name.kind, name.number));
 }
 
 std::string caption(const ExportOptions& options, const Packing& packing, const std::string& description) {
@@ -146,10 +152,15 @@ Command add_export(CLI::App& root) {
       ->add_option("--format", options->format,
                    "Form of the output (default: by the extension of -o, else svg)")
       ->check(CLI::IsMember({"csv", "svg", "pdf", "png"}));
+  const auto check_state = [](const std::string& text) -> std::string {
+    if (parse_state(text)) return "";
+    return "must be sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C";
+  };
   command
       ->add_option(
           "--state", options->state,
           "Contact state: sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C")
+      ->check(CLI::Validator(check_state, "STATE"))
       ->capture_default_str();
   command->add_option("--style", options->style, "Picture: forces of the state, or delta-R by colour")
       ->check(CLI::IsMember({"forces", "delta-R"}))

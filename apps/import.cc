@@ -1,17 +1,14 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <iostream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "command.h"
-#include "indet/base/error.h"
 #include "indet/io/balance.h"
 #include "indet/io/csv_reader.h"
 #include "indet/io/lammps_reader.h"
@@ -37,39 +34,39 @@ std::map<std::string, std::string> parse_columns(const std::vector<std::string>&
   for (const std::string& item : items) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) {
-      throw InputError(fmt::format("--columns: \"{}\" must have the form NAME=COLUMN", item));
+      throw UsageError(fmt::format("--columns: \"{}\" must have the form NAME=COLUMN", item));
     }
     if (!columns.emplace(item.substr(0, equals), item.substr(equals + 1)).second) {
-      throw InputError(fmt::format("--columns: {} is given twice", item.substr(0, equals)));
+      throw UsageError(fmt::format("--columns: {} is given twice", item.substr(0, equals)));
     }
   }
   return columns;
 }
 
-ImportedPacking read(ImportOptions& options, const CLI::App& command) {
+/// Options that are missing or do not fit together. (Not the parser's work: they may come from --config,
+/// after the first pass over the command line.)
+void check_usage(ImportOptions& options, const CLI::App& command) {
+  const auto fail = [](const std::string& reason) { throw UsageError(reason); };
+  if (options.format.empty()) fail("--format is required: csv or lammps");
+  if (options.output.empty()) fail("-o is required: the HDF5 file to write");
   if (options.format == "csv") {
     for (const char* name : {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--columns"}) {
-      if (command.count(name) > 0) {
-        throw InputError(
-            fmt::format("{} belongs to --format lammps; a CSV scene says it in its files", name));
-      }
+      if (command.count(name) == 0) continue;
+      fail(fmt::format("{} belongs to --format lammps; a CSV scene says it in its files", name));
     }
-    if (options.folder.empty()) throw InputError("--format csv needs the folder of the scene");
-    return read_csv_scene(options.folder);
+    if (options.folder.empty()) fail("--format csv needs the folder of the scene");
+    return;
   }
   if (!options.folder.empty()) {
-    throw InputError(fmt::format("--format lammps reads --atoms and --contacts, not {}", options.folder));
+    fail(fmt::format("--format lammps reads --atoms and --contacts, not {}", options.folder));
   }
   if (options.lammps.atoms.empty() || options.lammps.contacts.empty()) {
-    throw InputError("--format lammps needs two dumps: --atoms FILE --contacts FILE");
+    fail("--format lammps needs two dumps: --atoms FILE --contacts FILE");
   }
-  if (!options.friction) {
-    throw InputError("friction is not in a LAMMPS dump: give the coefficient with --friction MU");
-  }
+  if (!options.friction) fail("friction is not in a LAMMPS dump: give the coefficient with --friction MU");
   options.lammps.friction = *options.friction;
   options.lammps.gravity = {options.gravity[0], options.gravity[1]};
   options.lammps.columns = parse_columns(options.columns);
-  return read_lammps(options.lammps);
 }
 
 nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& report, double tolerance,
@@ -121,7 +118,9 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
 }
 
 int run(ImportOptions& options, const CLI::App& command, const Context& context) {
-  ImportedPacking imported = read(options, command);
+  check_usage(options, command);
+  ImportedPacking imported =
+      options.format == "csv" ? read_csv_scene(options.folder) : read_lammps(options.lammps);
   imported.packing.origin.config = context.resolved_config;
   const BalanceReport report = report_balance(imported);
   const double tolerance = options.balance_tolerance.value_or(default_balance_tolerance(imported));
@@ -148,8 +147,7 @@ int run(ImportOptions& options, const CLI::App& command, const Context& context)
 Command add_import(CLI::App& root) {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* command = root.add_subcommand("import", "Read a packing that another program made");
-  command->add_option("--format", options->format, "Form of the input")
-      ->required()
+  command->add_option("--format", options->format, "Form of the input (required)")
       ->check(CLI::IsMember({"csv", "lammps"}));
   command->add_option("folder", options->folder,
                       "csv: folder with disks.csv, contacts.csv, walls.csv, scene.toml");
@@ -172,7 +170,7 @@ Command add_import(CLI::App& root) {
                    "Largest residual of force or torque in mg (default: 1e-6, more for files with few "
                    "digits)")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("-o,--output", options->output, "HDF5 file to write")->required();
+  command->add_option("-o,--output", options->output, "HDF5 file to write (required)");
   return {command, [options, command](const Context& context) { return run(*options, *command, context); }};
 }
 

@@ -129,10 +129,8 @@ void write_tables(Hdf5File& file, const ForceRanges& ranges) {
              {"1", "1 if only one state attains the value"});
   file.write(group + "vertex", span_of(ranges.vertex), shape_of(ranges.vertex),
              {"1", "row of /extremal/states that attains the value, -1 for none"});
-  if (ranges.ray.size() > 0) {
-    file.write(group + "ray", span_of(ranges.ray), {static_cast<std::size_t>(ranges.ray.size())},
-               {"force", "forces (R_1, T_1, ...) that can be added without limit"});
-  }
+  file.write(group + "ray", span_of(ranges.ray), shape_of(ranges.ray),
+             {"1", "row of /extremal/rays along which the value grows without limit, -1 for none"});
 }
 
 void write_extremal(Hdf5File& file, const ForceRanges& ranges) {
@@ -144,6 +142,12 @@ void write_extremal(Hdf5File& file, const ForceRanges& ranges) {
              {"force", "Euclidean norm of the state"});
   file.write("/extremal/active", span_of(ranges.active), shape_of(ranges.active),
              {"1", "half-planes that define the state: 2a for mu R + T >= 0, 2a+1 for mu R - T >= 0"});
+}
+
+void write_rays(Hdf5File& file, const ForceRanges& ranges) {
+  if (ranges.rays.rows() == 0) return;
+  file.write("/extremal/rays", span_of(ranges.rays), shape_of(ranges.rays),
+             {"1", "directions (R_1, T_1, ..., R_M, T_M) in which forces can be added without limit"});
 }
 
 void write_work(Hdf5File& file, const ForceRanges& ranges) {
@@ -193,9 +197,7 @@ void read_tables(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges
                  [](std::uint8_t value) { return static_cast<Outcome>(value); });
   fill(ranges.unique, contacts, 4, file.read_bytes(group + "unique", table));
   fill(ranges.vertex, contacts, 4, file.read_integers(group + "vertex", table));
-  if (file.has(group + "ray")) {
-    fill(ranges.ray, 2 * contacts, 1, file.read_doubles(group + "ray", {2 * contacts}));
-  }
+  fill(ranges.ray, contacts, 4, file.read_integers(group + "ray", table));
 }
 
 void read_extremal(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges) {
@@ -219,6 +221,14 @@ void read_extremal(const Hdf5File& file, std::size_t contacts, ForceRanges& rang
   check_row("/extremal@largest_norm", largest);
   ranges.largest_norm = static_cast<int>(largest);
   for (const std::int32_t row : span_of(ranges.vertex)) check_row("/ranges/vertex", row);
+  const std::size_t rays = file.has("/extremal/rays") ? file.shape("/extremal/rays", 2)[0] : 0;
+  if (rays > 0)
+    fill(ranges.rays, rays, 2 * contacts, file.read_doubles("/extremal/rays", {rays, 2 * contacts}));
+  for (const std::int32_t row : span_of(ranges.ray)) {
+    if (row < -1 || row >= static_cast<std::int64_t>(rays)) {
+      fail(file, "/ranges/ray", fmt::format("points to ray {}, but there are {}", row, rays));
+    }
+  }
 }
 
 void read_work(const Hdf5File& file, ForceRanges& ranges) {
@@ -238,6 +248,7 @@ void write_ranges(const std::filesystem::path& path, const Packing& packing, con
   write_equilibrium(file, ranges);
   write_tables(file, ranges);
   write_extremal(file, ranges);
+  write_rays(file, ranges);
   file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
   Provenance all = provenance;
   all.seconds.insert(ranges.seconds.begin(), ranges.seconds.end());

@@ -32,7 +32,8 @@ Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
   Vertex vertex;
   vertex.basis = basis;
   const int d = set.dim();
-  if (static_cast<int>(basis.size()) != d) throw LibraryError("a vertex needs as many active inequalities as dimensions");
+  if (static_cast<int>(basis.size()) != d)
+    throw LibraryError("a vertex needs as many active inequalities as dimensions");
   if (d > 0) {
     const Eigen::MatrixXd rows = set.slope(basis, Eigen::all);
     const Eigen::VectorXd offset = set.offset(basis);

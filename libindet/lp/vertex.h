@@ -12,8 +12,8 @@ namespace indet {
 /// what is stored.
 struct Vertex {
   Basis basis;
-  Eigen::VectorXd z;  ///< d
-  Eigen::VectorXd x;  ///< K; exactly 0 at the active inequalities
+  Eigen::VectorXd z;                            ///< d
+  Eigen::VectorXd x;                            ///< K; exactly 0 at the active inequalities
   Eigen::PartialPivLU<Eigen::MatrixXd> active;  ///< factors of S_N, d × d
 
   /// Column k of S_N⁻¹: the direction of the edge of F along which active inequality k is left.

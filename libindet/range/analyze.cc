@@ -9,12 +9,13 @@
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
-#include "indet/contact/contact_matrix.h"
 #include "indet/lp/walk.h"
 #include "indet/polytope/force_polytope.h"
 #include "indet/polytope/interior.h"
+#include "indet/range/certify.h"
 #include "indet/range/extremal_search.h"
 #include "indet/range/measures.h"
+#include "indet/range/state_table.h"
 
 namespace indet {
 namespace {
@@ -45,6 +46,8 @@ void size_tables(const Packing& packing, ForceRanges& ranges) {
   ranges.outcome.setConstant(count, 4, Outcome::kNotRequested);
   ranges.unique.setZero(count, 4);
   ranges.vertex.setConstant(count, 4, -1);
+  ranges.ray.setConstant(count, 4, -1);
+  ranges.rays.resize(0, 2 * count);
   ranges.states.resize(0, 2 * count);
   ranges.active.resize(0, 0);
 }
@@ -79,7 +82,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
 
 /// Switches off what is unbounded: whatever grows along some direction of the block's recession cone.
 void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, const Eigen::VectorXd& weight,
-                       BlockComponents& block, ForceRanges& ranges) {
+                       BlockComponents& block, StateTable& states, std::size_t number, ForceRanges& ranges) {
   if (find_recession_ray(set, options.lp, ranges.pivots).size() == 0) return;
   const FeasibleSet cone = truncated_recession_cone(set);
   SearchOptions cone_options = options;
@@ -104,6 +107,8 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
       wanted = false;
       ranges.value(contact.value(), column) = infinite;
       ranges.outcome(contact.value(), column) = Outcome::kUnbounded;
+      const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
+      ranges.ray(contact.value(), column) = states.add_ray(number, end.x.head(set.inequalities()));
       ranges.primal_residual(contact.value(), column) = 0;
       ranges.dual_residual(contact.value(), column) = extremum.dual_residual;
     };
@@ -111,65 +116,6 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
     mark(block.components[c].maximise, growth.maximum[c], is_tangential ? kMaxT : kMaxR, kInfinity);
   }
 }
-
-/// Collects the distinct contact states, and keeps for each the half-planes that define it.
-class StateTable {
- public:
-  explicit StateTable(const ForcePolytope& polytope) : polytope_(polytope) {}
-
-  /// The state with one block at a vertex and everything else at the state of smallest total normal force.
-  int add(std::size_t block, const Vertex& vertex) {
-    if (vertex.basis == polytope_.blocks[block].lightest) return lightest();
-    const auto [entry, is_new] =
-        numbers_.emplace(std::make_pair(static_cast<int>(block), vertex.basis), count());
-    if (is_new) {
-      Eigen::VectorXd x = polytope_.lightest;
-      x(polytope_.blocks[block].edges) = vertex.x;
-      append(x, static_cast<int>(block), vertex.basis);
-    }
-    return entry->second;
-  }
-
-  int lightest() {
-    const auto [entry, is_new] = numbers_.emplace(std::make_pair(-1, Basis{}), count());
-    if (is_new) append(polytope_.lightest, -1, {});
-    return entry->second;
-  }
-
-  void write(ForceRanges& ranges) const {
-    ranges.states.resize(count(), polytope_.contacts.edge_forces.rows());
-    ranges.active.resize(count(), polytope_.dim);
-    for (int i = 0; i < count(); ++i) {
-      ranges.states.row(i) = states_[static_cast<std::size_t>(i)].transpose() * polytope_.contacts.force_unit;
-      const auto& active = active_[static_cast<std::size_t>(i)];
-      ranges.active.row(i) =
-          Eigen::Map<const Eigen::Array<std::int32_t, 1, Eigen::Dynamic>>(active.data(), polytope_.dim);
-    }
-  }
-
- private:
-  int count() const { return static_cast<int>(states_.size()); }
-
-  void append(const Eigen::VectorXd& x, int block, const Basis& basis) {
-    states_.push_back(contact_state(polytope_, x));
-    std::vector<std::int32_t> active;
-    for (int b = 0; b < static_cast<int>(polytope_.blocks.size()); ++b) {
-      const PolytopeBlock& other = polytope_.blocks[static_cast<std::size_t>(b)];
-      for (const int local : b == block ? basis : other.lightest) {
-        const Edge& edge =
-            polytope_.contacts.edges[static_cast<std::size_t>(other.edges[static_cast<std::size_t>(local)])];
-        active.push_back(2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0));
-      }
-    }
-    std::sort(active.begin(), active.end());
-    active_.push_back(std::move(active));
-  }
-
-  const ForcePolytope& polytope_;
-  std::map<std::pair<int, Basis>, int> numbers_;
-  std::vector<Eigen::VectorXd> states_;
-  std::vector<std::vector<std::int32_t>> active_;
-};
 
 void search_block(const ForcePolytope& polytope, std::size_t number, const SearchOptions& options,
                   StateTable& states, ForceRanges& ranges) {
@@ -181,7 +127,7 @@ void search_block(const ForcePolytope& polytope, std::size_t number, const Searc
   }
   BlockComponents wanted = components_of(polytope, block);
   if (polytope.status == PolytopeStatus::kUnbounded)
-    exclude_unbounded(block.set, options, weight, wanted, ranges);
+    exclude_unbounded(block.set, options, weight, wanted, states, number, ranges);
   const SearchResult found = search_extrema(block.set, wanted.components, weight, block.lightest, options);
   ranges.solves += found.solves;
   ranges.pivots += found.pivots;
@@ -216,59 +162,6 @@ void store_determined(StateTable& states, ForceRanges& ranges) {
   }
 }
 
-/// Values, residuals and outcomes from the stored states, recomputed from the packing.
-void certify(const Packing& packing, ForceRanges& ranges) {
-  const double unit = ranges.force_unit;
-  Eigen::VectorXd residual(ranges.states.rows());
-  Eigen::VectorXd scale(ranges.states.rows());
-  ranges.residual = 0;
-  for (Eigen::Index k = 0; k < ranges.states.rows(); ++k) {
-    const Eigen::VectorXd forces = ranges.states.row(k).transpose();
-    const double balance =
-        packing.disk_count() > 0 ? equilibrium_residual(packing, forces).cwiseAbs().maxCoeff() : 0;
-    scale[k] = std::max(1.0, forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() / unit : 0.0);
-    residual[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale[k];
-    ranges.residual = std::max(ranges.residual, balance);
-  }
-  ranges.worst_primal_residual = 0;
-  ranges.worst_dual_residual = 0;
-  for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
-    for (int column = 0; column < 4; ++column) {
-      ++ranges.objectives;
-      const int vertex = ranges.vertex(i, column);
-      Outcome& outcome = ranges.outcome(i, column);
-      if (vertex >= 0) {
-        const double primal = residual[vertex];
-        const double dual = ranges.dual_residual(i, column);
-        const double value = ranges.states(vertex, 2 * i + (column >= kMinT ? 1 : 0));
-        // First-order bound of what the residuals can hide; rounding of the bound itself is not accounted
-        // for.
-        const double slack = (primal + dual) * scale[vertex] * unit *
-                             static_cast<double>(std::max<Eigen::Index>(1, ranges.outcome.rows()));
-        ranges.value(i, column) = value;
-        ranges.lower(i, column) = value - slack;
-        ranges.upper(i, column) = value + slack;
-        ranges.primal_residual(i, column) = primal;
-        if (primal > tolerance::kPrimalResidual || dual > tolerance::kDualResidual)
-          outcome = Outcome::kImprecise;
-      } else if (outcome == Outcome::kUnbounded) {
-        ranges.lower(i, column) = ranges.upper(i, column) = ranges.value(i, column);
-      }
-      const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
-      if (has_value && ranges.rank_ambiguous) outcome = Outcome::kImprecise;
-      if (has_value) {
-        ranges.worst_primal_residual =
-            std::max(ranges.worst_primal_residual, ranges.primal_residual(i, column));
-        ranges.worst_dual_residual = std::max(ranges.worst_dual_residual, ranges.dual_residual(i, column));
-      }
-      ranges.certified += outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded ? 1 : 0;
-      ranges.unbounded += outcome == Outcome::kUnbounded ? 1 : 0;
-      ranges.imprecise += outcome == Outcome::kImprecise ? 1 : 0;
-      ranges.failed += outcome == Outcome::kFailed ? 1 : 0;
-    }
-  }
-}
-
 void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
   const NullSpace& null_space = polytope.null_space;
   ranges.status = polytope.status;
@@ -286,7 +179,6 @@ void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
   ranges.motion = polytope.motion;
   ranges.solves = polytope.solves;
   ranges.pivots = polytope.pivots;
-  if (polytope.ray.size() > 0) ranges.ray = contact_state(polytope, polytope.ray);
 }
 
 }  // namespace

@@ -77,7 +77,11 @@ struct ForceRanges {
   Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> active;
   int largest_norm = -1;  ///< The state of largest norm.
 
-  Eigen::VectorXd ray;  ///< [2M] a direction of ker c ∩ K along which F is unbounded; empty otherwise.
+  /// [Q, 2M]: directions of ker c ∩ K along which F is unbounded (largest entry 1).
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rays;
+  Table4<std::int32_t>
+      ray;  ///< Row of `rays` along which the objective grows without limit; −1: it is limited.
+
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>
       motion;  ///< [N, 3] virtual velocity x, y and r·ω of each disk when F is empty.
 

@@ -142,6 +142,7 @@ TEST(RangesFile, EveryFieldComesBack) {
   EXPECT_TRUE(same(read.active, written.active));
   EXPECT_EQ(read.largest_norm, written.largest_norm);
   EXPECT_TRUE(same(read.ray, written.ray));
+  EXPECT_TRUE(same(read.rays, written.rays));
   EXPECT_EQ(read.motion.rows(), 0);
   EXPECT_EQ(read.formulation, written.formulation);
   EXPECT_EQ(read.objectives, written.objectives);
@@ -162,7 +163,8 @@ TEST(RangesFile, AnEmptyPolytopeKeepsItsMotion) {
   ForceRanges written = test::sample_ranges();
   written.status = PolytopeStatus::kEmpty;
   written.dim = -1;
-  written.ray.resize(0);
+  written.rays.resize(0, 10);
+  written.ray.setConstant(-1);
   written.motion.resize(3, 3);
   written.motion << 1, 2, 3, 4, 5, 6, 7, 8, 9;
   written.states.resize(0, 10);
@@ -175,7 +177,7 @@ TEST(RangesFile, AnEmptyPolytopeKeepsItsMotion) {
   EXPECT_EQ(read.status, PolytopeStatus::kEmpty);
   EXPECT_EQ(read.dim, -1);
   EXPECT_TRUE(same(read.motion, written.motion));
-  EXPECT_EQ(read.ray.size(), 0);
+  EXPECT_EQ(read.rays.rows(), 0);
   EXPECT_EQ(read.states.rows(), 0);
 }
 

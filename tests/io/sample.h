@@ -110,7 +110,9 @@ inline ForceRanges sample_ranges() {
     for (int j = 0; j < 3; ++j) ranges.active(k, j) = k + j;
   }
   ranges.largest_norm = 6;
-  ranges.ray = Eigen::VectorXd::LinSpaced(2 * kContacts, 0, 9);
+  ranges.rays = Eigen::RowVectorXd::LinSpaced(2 * kContacts, 0, 9);
+  ranges.ray.setConstant(kContacts, 4, -1);
+  ranges.ray(2, kMaxR) = 0;
   ranges.formulation = "edge";
   ranges.objectives = 20;
   ranges.solves = 11;

@@ -91,6 +91,7 @@ AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
                                         same_bits("norm", a.norm, b.norm),
                                         same_bits("active", a.active, b.active),
                                         same_bits("ray", a.ray, b.ray),
+                                        same_bits("rays", a.rays, b.rays),
                                         same_bits("motion", a.motion, b.motion)}) {
     if (!result) return result;
   }
@@ -207,6 +208,24 @@ AssertionResult is_recession_ray(const Packing& packing, const Eigen::VectorXd& 
     const double margin = packing[ContactId(k)].mu * ray[2 * k] - std::abs(ray[2 * k + 1]);
     if (std::min(ray[2 * k], margin) < -tolerance * size)
       return AssertionFailure() << "contact " << k << " leaves its cone by " << -std::min(ray[2 * k], margin);
+  }
+  return AssertionSuccess();
+}
+
+AssertionResult has_rays_where_infinite(const Packing& packing, const ForceRanges& ranges, double tolerance) {
+  for (Eigen::Index i = 0; i < ranges.value.rows(); ++i) {
+    for (Eigen::Index j = 0; j < 4; ++j) {
+      const int row = ranges.ray(i, j);
+      const bool infinite = std::isinf(ranges.value(i, j));
+      if (infinite != (row >= 0) || row >= ranges.rays.rows())
+        return AssertionFailure() << "contact " << i << ", column " << j << ": value " << ranges.value(i, j)
+                                  << ", ray " << row;
+      if (!infinite) continue;
+      const Eigen::VectorXd ray = ranges.rays.row(row).transpose();
+      if (auto result = is_recession_ray(packing, ray, tolerance); !result) return result;
+      if (!(ray[2 * i + (j >= kMinT ? 1 : 0)] * ranges.value(i, j) > 0))
+        return AssertionFailure() << "contact " << i << ", column " << j << " does not grow along its ray";
+    }
   }
   return AssertionSuccess();
 }

@@ -44,4 +44,8 @@ testing::AssertionResult is_falling_motion(const Packing& packing, const Eigen::
 testing::AssertionResult is_recession_ray(const Packing& packing, const Eigen::VectorXd& ray,
                                           double tolerance);
 
+/// Each infinite end of a range, and no other, has a ray of ker c ∩ K along which the force grows that way.
+testing::AssertionResult has_rays_where_infinite(const Packing& packing, const ForceRanges& ranges,
+                                                 double tolerance);
+
 }  // namespace indet::test

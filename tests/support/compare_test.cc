@@ -84,5 +84,20 @@ TEST(Compare, RayIsMultipliedBack) {
   EXPECT_FALSE(is_recession_ray(packing, Eigen::Vector4d::Zero(), 1e-12));
 }
 
+TEST(Compare, EveryInfiniteEndNeedsItsOwnRay) {
+  const Packing packing = zoo::wedge(1.4, 0.3);
+  const ForceRanges ranges = analyze(packing);
+  EXPECT_TRUE(has_rays_where_infinite(packing, ranges, 1e-12));
+  ForceRanges changed = ranges;
+  changed.ray(0, kMaxR) = -1;
+  EXPECT_FALSE(has_rays_where_infinite(packing, changed, 1e-12));
+  changed = ranges;
+  changed.value(0, kMaxR) *= -1;
+  EXPECT_FALSE(has_rays_where_infinite(packing, changed, 1e-12));
+  changed = ranges;
+  changed.rays(0, 0) += 0.1;
+  EXPECT_FALSE(has_rays_where_infinite(packing, changed, 1e-12));
+}
+
 }  // namespace
 }  // namespace indet::test

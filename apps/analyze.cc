@@ -1,0 +1,270 @@
+#include "indet/range/analyze.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "indet/base/tolerances.h"
+#include "indet/io/packing_file.h"
+#include "indet/io/ranges_file.h"
+#include "indet/lp/glpk_problem.h"
+
+namespace indet::app {
+namespace {
+
+struct Options {
+  std::string packing;
+  std::string output;
+  std::string formulation = "auto";
+  std::string states = "canonical";
+};
+
+std::optional<Formulation> parse_formulation(const std::string& name) {
+  for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
+    if (name == to_string(formulation)) return formulation;
+  }
+  return {};
+}
+
+struct Statistics {
+  double mean = std::nan("");
+  double max = std::nan("");
+};
+
+/// NaN entries (values that were not found) are left out.
+Statistics statistics(const Eigen::VectorXd& values) {
+  Statistics result;
+  double sum = 0;
+  int count = 0;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    sum += value;
+    ++count;
+    if (!(result.max >= value)) result.max = value;
+  }
+  if (count > 0) result.mean = sum / count;
+  return result;
+}
+
+/// JSON has no inf; null would hide it.
+nlohmann::json number(double value) {
+  if (std::isfinite(value)) return value;
+  if (std::isnan(value)) return nullptr;
+  return value > 0 ? "inf" : "-inf";
+}
+
+struct MovingDisk {
+  int index = 0;
+  Vector3 motion;
+};
+
+/// The disks that move when the packing cannot stand, the fastest first.
+std::vector<MovingDisk> moving_disks(const ForceRanges& ranges) {
+  std::vector<MovingDisk> disks;
+  for (Eigen::Index i = 0; i < ranges.motion.rows(); ++i) {
+    const Vector3 motion = ranges.motion.row(i).transpose();
+    if (motion.norm() > tolerance::kReducedCost) disks.push_back({static_cast<int>(i), motion});
+  }
+  std::stable_sort(disks.begin(), disks.end(), [](const MovingDisk& a, const MovingDisk& b) {
+    return a.motion.norm() > b.motion.norm();
+  });
+  return disks;
+}
+
+nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
+  const Statistics delta_R = statistics(ranges.delta_R);
+  const Statistics delta_T = statistics(ranges.delta_T);
+  const Statistics d_R = statistics(ranges.d_R);
+  const Statistics d_T = statistics(ranges.d_T);
+  nlohmann::json json = {{"output", output},
+                         {"status", to_string(ranges.status)},
+                         {"disks", packing.disk_count()},
+                         {"contacts", packing.contact_count()},
+                         {"unknowns", ranges.unknowns},
+                         {"equations", ranges.equations},
+                         {"rank", ranges.rank},
+                         {"nullity", ranges.nullity},
+                         {"rank_gap", number(ranges.rank_gap)},
+                         {"rank_ambiguous", ranges.rank_ambiguous},
+                         {"dim", ranges.dim},
+                         {"expected_dim", 2 * packing.contact_count() - 3 * packing.disk_count()},
+                         {"blocks", ranges.blocks},
+                         {"sliding", ranges.sliding},
+                         {"non_transmitting", ranges.non_transmitting},
+                         {"formulation", ranges.formulation},
+                         {"objectives", ranges.objectives},
+                         {"determined", ranges.determined},
+                         {"solves", ranges.solves},
+                         {"pivots", ranges.pivots},
+                         {"certified", ranges.certified},
+                         {"unbounded", ranges.unbounded},
+                         {"imprecise", ranges.imprecise},
+                         {"failed", ranges.failed},
+                         {"unique", ranges.unique.cast<int>().sum()},
+                         {"states", ranges.states.rows()},
+                         {"worst_primal_residual", number(ranges.worst_primal_residual)},
+                         {"worst_dual_residual", number(ranges.worst_dual_residual)},
+                         {"force_unit", ranges.force_unit},
+                         {"mean_delta_R", number(delta_R.mean)},
+                         {"max_delta_R", number(delta_R.max)},
+                         {"mean_delta_T", number(delta_T.mean)},
+                         {"max_delta_T", number(delta_T.max)},
+                         {"mean_d_R", number(d_R.mean)},
+                         {"max_d_R", number(d_R.max)},
+                         {"mean_d_T", number(d_T.mean)},
+                         {"max_d_T", number(d_T.max)},
+                         {"seconds", ranges.seconds}};
+  if (ranges.largest_norm >= 0)
+    json["largest_norm"] = number(ranges.norm[ranges.largest_norm] / ranges.force_unit);
+  for (const MovingDisk& disk : moving_disks(ranges)) {
+    json["moving_disks"].push_back({{"index", disk.index},
+                                    {"id", packing[DiskId(disk.index)].id},
+                                    {"motion", {disk.motion.x(), disk.motion.y(), disk.motion.z()}}});
+  }
+  if (ranges.status == PolytopeStatus::kUnbounded) {
+    json["rays"] = ranges.rays.rows();
+  }
+  return json;
+}
+
+void print_motion(const Packing& packing, const ForceRanges& ranges) {
+  fmt::print(
+      "The packing cannot stand: no contact forces balance the load within the friction cones.\n"
+      "Under this virtual motion the load does work and no contact resists (x, y, radius × rotation):\n");
+  const std::vector<MovingDisk> disks = moving_disks(ranges);
+  constexpr std::size_t kShown = 10;
+  for (std::size_t i = 0; i < std::min(kShown, disks.size()); ++i) {
+    fmt::print("  disk {:<6} {:+.3f}  {:+.3f}  {:+.3f}\n", packing[DiskId(disks[i].index)].id,
+               disks[i].motion.x(), disks[i].motion.y(), disks[i].motion.z());
+  }
+  if (disks.size() > kShown) fmt::print("  … and {} more\n", disks.size() - kShown);
+}
+
+void print_extremes(const Packing& packing, const ForceRanges& ranges) {
+  constexpr Eigen::Index kShown = 5;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(ranges.delta_R.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return ranges.delta_R[a] > ranges.delta_R[b]; });
+  fmt::print("\nlargest δR      contact     bodies        R_min     R_max     T_min     T_max   (mg)\n");
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(kShown, ranges.delta_R.size()); ++i) {
+    const Eigen::Index k = order[static_cast<std::size_t>(i)];
+    const Contact& contact = packing[ContactId(k)];
+    const std::string other = contact.b.is_wall() ? "wall " + packing[contact.b.wall_id()].name
+                                                  : std::to_string(packing[contact.b.disk_id()].id);
+    const auto value = ranges.value.row(k) / ranges.force_unit;
+    fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
+               fmt::format("{}–{}", packing[contact.a].id, other), value[kMinR], value[kMaxR], value[kMinT],
+               value[kMaxT]);
+  }
+}
+
+void print_summary(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
+  fmt::print("{} disks, {} contacts: {} unknown forces, {} equations, rank {}, nullity {}\n",
+             packing.disk_count(), packing.contact_count(), ranges.unknowns, ranges.equations, ranges.rank,
+             ranges.nullity);
+  if (ranges.rank_ambiguous) {
+    fmt::print(
+        "The rank is ambiguous (singular values {:.1e} accepted, {:.1e} rejected): every result is marked "
+        "imprecise.\n",
+        ranges.smallest_accepted, ranges.largest_rejected);
+  }
+  if (ranges.status == PolytopeStatus::kEmpty) {
+    print_motion(packing, ranges);
+    fmt::print("\nwritten to {}\n", output);
+    return;
+  }
+  fmt::print("polytope of contact states: {}, dimension {} (2M − 3N = {}), {} independent block{}\n",
+             to_string(ranges.status), ranges.dim, 2 * packing.contact_count() - 3 * packing.disk_count(),
+             ranges.blocks, ranges.blocks == 1 ? "" : "s");
+  if (ranges.sliding >= 0) {
+    fmt::print("simulated state: {} sliding contacts (a non-transmitting one counts twice; there are {})\n",
+               ranges.sliding, ranges.non_transmitting);
+  }
+  fmt::print("{} objectives: {} certified, {} imprecise, {} failed", ranges.objectives, ranges.certified,
+             ranges.imprecise, ranges.failed);
+  if (ranges.unbounded > 0) fmt::print(", {} of the certified unbounded", ranges.unbounded);
+  fmt::print("\nworst residuals: {:.1e} primal, {:.1e} dual\n", ranges.worst_primal_residual,
+             ranges.worst_dual_residual);
+  fmt::print("{} linear programs, {} pivots ({}); {} extremal states, {} objectives have only one\n",
+             ranges.solves, ranges.pivots, ranges.formulation, ranges.states.rows(),
+             ranges.unique.cast<int>().sum());
+  const auto line = [](const char* name, const Eigen::VectorXd& values) {
+    const Statistics s = statistics(values);
+    fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
+  };
+  fmt::print("\nindeterminacy (mg)\n");
+  line("δR", ranges.delta_R);
+  line("δT", ranges.delta_T);
+  line("dR", ranges.d_R);
+  line("dT", ranges.d_T);
+  if (ranges.delta_R.size() > 0) print_extremes(packing, ranges);
+  double total = 0;
+  for (const auto& [stage, seconds] : ranges.seconds) total += seconds;
+  fmt::print("\nwritten to {} ({:.2f} s)\n", output, total);
+}
+
+int run(const Options& options, const Context& context) {
+  const Packing packing = read_packing(options.packing);
+  AnalyzeOptions analysis;
+  analysis.formulation = parse_formulation(options.formulation);
+  analysis.canonical_states = options.states == "canonical";
+  analysis.threads = context.thread_count();
+  analysis.progress = context.progress();
+  const ForceRanges ranges = analyze(packing, analysis);
+
+  std::filesystem::path output = options.output;
+  if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
+  Provenance provenance;
+  provenance.arguments = context.arguments;
+  provenance.config = context.resolved_config;
+  provenance.libraries["GLPK"] = glpk_version();
+  write_ranges(output, packing, ranges, provenance);
+  if (context.json) {
+    std::cout << to_json(packing, ranges, output.string()).dump(2) << '\n';
+  } else {
+    print_summary(packing, ranges, output.string());
+  }
+  if (ranges.status == PolytopeStatus::kEmpty) return kNoAdmissibleState;
+  return ranges.imprecise + ranges.failed > 0 ? kUncertain : kDone;
+}
+
+}  // namespace
+
+Command add_analyze(CLI::App& root) {
+  CLI::App* command = root.add_subcommand("analyze", "Find the range of every contact force of a packing");
+  const auto options = std::make_shared<Options>();
+  command->add_option("packing", options->packing, "The packing, an indet HDF5 file")
+      ->required()
+      ->type_name("P.h5");
+  command
+      ->add_option("-o,--output", options->output,
+                   "The file to write (default: P.ranges.h5 beside the packing)")
+      ->type_name("R.h5");
+  command
+      ->add_option("--formulation", options->formulation,
+                   "How the linear programs are posed; the results are the same")
+      ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
+      ->capture_default_str();
+  command
+      ->add_option("--extremal-states", options->states,
+                   "Which state stands for an optimum that many states attain: the one of smallest total "
+                   "normal force (canonical), or the "
+                   "vertex that the solver lands on (solver: about twice as fast; dR and dT then depend on "
+                   "the formulation)")
+      ->check(CLI::IsMember({"canonical", "solver"}))
+      ->capture_default_str();
+  return {command, [options](const Context& context) { return run(*options, context); }};
+}
+
+}  // namespace indet::app

@@ -1,0 +1,62 @@
+#include "indet/range/certify.h"
+
+#include <algorithm>
+
+#include "indet/base/tolerances.h"
+#include "indet/contact/contact_matrix.h"
+
+namespace indet {
+
+void certify(const Packing& packing, ForceRanges& ranges) {
+  const double unit = ranges.force_unit;
+  Eigen::VectorXd residual(ranges.states.rows());
+  Eigen::VectorXd scale(ranges.states.rows());
+  ranges.residual = 0;
+  for (Eigen::Index k = 0; k < ranges.states.rows(); ++k) {
+    const Eigen::VectorXd forces = ranges.states.row(k).transpose();
+    const double balance =
+        packing.disk_count() > 0 ? equilibrium_residual(packing, forces).cwiseAbs().maxCoeff() : 0;
+    scale[k] = std::max(1.0, forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() / unit : 0.0);
+    residual[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale[k];
+    ranges.residual = std::max(ranges.residual, balance);
+  }
+  ranges.worst_primal_residual = 0;
+  ranges.worst_dual_residual = 0;
+  for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      ++ranges.objectives;
+      const int vertex = ranges.vertex(i, column);
+      Outcome& outcome = ranges.outcome(i, column);
+      if (vertex >= 0) {
+        const double primal = residual[vertex];
+        const double dual = ranges.dual_residual(i, column);
+        const double value = ranges.states(vertex, 2 * i + (column >= kMinT ? 1 : 0));
+        // First-order bound of what the residuals can hide; rounding of the bound itself is not accounted
+        // for.
+        const double slack = (primal + dual) * scale[vertex] * unit *
+                             static_cast<double>(std::max<Eigen::Index>(1, ranges.outcome.rows()));
+        ranges.value(i, column) = value;
+        ranges.lower(i, column) = value - slack;
+        ranges.upper(i, column) = value + slack;
+        ranges.primal_residual(i, column) = primal;
+        if (primal > tolerance::kPrimalResidual || dual > tolerance::kDualResidual)
+          outcome = Outcome::kImprecise;
+      } else if (outcome == Outcome::kUnbounded) {
+        ranges.lower(i, column) = ranges.upper(i, column) = ranges.value(i, column);
+      }
+      const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
+      if (has_value && ranges.rank_ambiguous) outcome = Outcome::kImprecise;
+      if (has_value) {
+        ranges.worst_primal_residual =
+            std::max(ranges.worst_primal_residual, ranges.primal_residual(i, column));
+        ranges.worst_dual_residual = std::max(ranges.worst_dual_residual, ranges.dual_residual(i, column));
+      }
+      ranges.certified += outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded ? 1 : 0;
+      ranges.unbounded += outcome == Outcome::kUnbounded ? 1 : 0;
+      ranges.imprecise += outcome == Outcome::kImprecise ? 1 : 0;
+      ranges.failed += outcome == Outcome::kFailed ? 1 : 0;
+    }
+  }
+}
+
+}  // namespace indet

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "indet/packing/packing.h"
+#include "indet/range/force_ranges.h"
+
+namespace indet {
+
+/// Reads each value from its stored state, recomputes the primal residuals from the packing, bounds the
+/// values, and lets the residuals decide between `optimal` and `imprecise`; then counts outcomes. Expects
+/// states, vertex, outcome, dual_residual and rank_ambiguous.
+void certify(const Packing& packing, ForceRanges& ranges);
+
+}  // namespace indet

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "indet/lp/vertex.h"
+#include "indet/polytope/force_polytope.h"
+#include "indet/range/force_ranges.h"
+
+namespace indet {
+
+/// Collects the distinct extremal states, each with the half-planes that define it, and the directions of
+/// unbounded growth.
+class StateTable {
+ public:
+  /// `polytope` must outlive the table, and not be empty.
+  explicit StateTable(const ForcePolytope& polytope) : polytope_(polytope) {}
+
+  /// The row of the state with one block at a vertex and everything else at the state of smallest total
+  /// normal force.
+  int add(std::size_t block, const Vertex& vertex);
+  /// The row of the state of smallest total normal force.
+  int lightest();
+  /// The row of a direction x of one block.
+  int add_ray(std::size_t block, const Eigen::VectorXd& x);
+
+  /// Fills `states`, `active` and `rays`.
+  void write(ForceRanges& ranges) const;
+
+ private:
+  int count() const { return static_cast<int>(states_.size()); }
+  void append(const Eigen::VectorXd& x, int block, const Basis& basis);
+
+  const ForcePolytope& polytope_;
+  std::map<std::pair<int, Basis>, int> numbers_;
+  std::vector<Eigen::VectorXd> states_;
+  std::vector<std::vector<std::int32_t>> active_;
+  std::vector<Eigen::VectorXd> rays_;
+};
+
+}  // namespace indet

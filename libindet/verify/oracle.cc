@@ -1,0 +1,132 @@
+#include "indet/verify/oracle.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "indet/verify/nonnegative.h"
+
+namespace indet {
+namespace {
+
+/// Singular directions below this, relative to the largest pivot, are the kernel.
+constexpr double kRankThreshold = 1e-12;
+
+Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints) {
+  if (constraints.cols() == 0) return Eigen::MatrixXd(0, 0);
+  if (constraints.rows() == 0) return Eigen::MatrixXd::Identity(constraints.cols(), constraints.cols());
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kRankThreshold);
+  qr.compute(constraints.transpose());
+  const Eigen::Index nullity = constraints.cols() - qr.rank();
+  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(constraints.cols(), nullity);
+  last.bottomRows(nullity).setIdentity();
+  last.applyOnTheLeft(qr.householderQ());
+  return last;
+}
+
+}  // namespace
+
+Oracle::Oracle(const Packing& packing) : packing_(packing), force_unit_(packing.force_unit()) {
+  const int disks = packing.disk_count();
+  const int contacts = packing.contact_count();
+  matrix_.setZero(3 * disks, 2 * contacts);
+  wrench_.setZero(3 * disks);
+  for (int i = 0; i < disks; ++i) {
+    const Disk& disk = packing[DiskId(i)];
+    wrench_[3 * i] = (disk.mass * packing.gravity.x() + disk.load.x()) / force_unit_;
+    wrench_[3 * i + 1] = (disk.mass * packing.gravity.y() + disk.load.y()) / force_unit_;
+    wrench_[3 * i + 2] = disk.load.z() / (force_unit_ * disk.radius);
+  }
+  std::vector<int> frictionless;
+  for (int c = 0; c < contacts; ++c) {
+    const Contact& contact = packing[ContactId(c)];
+    const double nx = contact.normal.x();
+    const double ny = contact.normal.y();
+    const auto place = [&](int disk, double chi) {
+      matrix_.block<3, 2>(3 * disk, 2 * c) << chi * nx, chi * ny, chi * ny, -chi * nx, 0, 1;
+    };
+    place(contact.a.value(), 1);
+    if (!contact.b.is_wall()) place(contact.b.disk_id().value(), -1);
+    if (contact.mu == 0) frictionless.push_back(2 * c + 1);
+  }
+  Eigen::MatrixXd constraints(matrix_.rows() + static_cast<Eigen::Index>(frictionless.size()),
+                              matrix_.cols());
+  constraints << matrix_,
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(frictionless.size()), matrix_.cols());
+  for (std::size_t i = 0; i < frictionless.size(); ++i)
+    constraints(matrix_.rows() + static_cast<Eigen::Index>(i), frictionless[i]) = 1;
+  kernel_ = kernel_of(constraints);
+}
+
+double Oracle::imbalance_without_load(const Eigen::VectorXd& forces) const {
+  return matrix_.size() == 0 ? 0 : (matrix_ * forces).lpNorm<Eigen::Infinity>();
+}
+
+double Oracle::imbalance(const Eigen::VectorXd& forces) const {
+  return wrench_.size() == 0 ? 0 : (matrix_ * forces + wrench_).lpNorm<Eigen::Infinity>();
+}
+
+double Oracle::slack(int half_plane, const Eigen::VectorXd& forces) const {
+  const int contact = half_plane / 2;
+  const double mu = packing_[ContactId(contact)].mu;
+  const double R = forces[2 * contact];
+  const double T = forces[2 * contact + 1];
+  if (mu == 0) return R - std::abs(T);
+  return (mu * R + (half_plane % 2 == 0 ? T : -T)) / std::hypot(1.0, mu);
+}
+
+double Oracle::violation(const Eigen::VectorXd& forces) const {
+  double worst = 0;
+  for (int h = 0; h < 2 * packing_.contact_count(); ++h) worst = std::max(worst, -slack(h, forces));
+  return worst;
+}
+
+Eigen::VectorXd Oracle::normal_of(int half_plane) const {
+  const int contact = half_plane / 2;
+  const double mu = packing_[ContactId(contact)].mu;
+  if (mu == 0) return kernel_.row(2 * contact).transpose();
+  const double sign = half_plane % 2 == 0 ? 1 : -1;
+  return (mu * kernel_.row(2 * contact) + sign * kernel_.row(2 * contact + 1)).transpose() /
+         std::hypot(1.0, mu);
+}
+
+double Oracle::optimality_gap(int component, double sign, const std::vector<int>& tight) const {
+  const Eigen::VectorXd gradient = sign * kernel_.row(component).transpose();
+  if (gradient.size() == 0 || gradient.norm() == 0) return 0;
+  Eigen::MatrixXd normals(nullity(), static_cast<Eigen::Index>(tight.size()));
+  for (std::size_t i = 0; i < tight.size(); ++i)
+    normals.col(static_cast<Eigen::Index>(i)) = normal_of(tight[i]);
+  if (normals.cols() == 0) return gradient.norm();
+  if (normals.cols() == normals.rows()) {  // the usual case: a simple vertex
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(normals);
+    const Eigen::VectorXd y = lu.solve(-gradient).cwiseMax(0);
+    const double gap = (normals * y + gradient).norm();
+    if (gap < 1e-9) return gap;
+  }
+  return (normals * solve_nonnegative(normals, -gradient) + gradient).norm();
+}
+
+double Oracle::load_power(const Eigen::MatrixXd& motion) const {
+  double power = 0;
+  for (Eigen::Index i = 0; i < motion.rows(); ++i)
+    power += wrench_.segment<3>(3 * i).dot(motion.row(i).transpose());
+  return power;
+}
+
+double Oracle::smallest_contact_power(const Eigen::MatrixXd& motion) const {
+  Eigen::VectorXd flat(3 * motion.rows());
+  for (Eigen::Index i = 0; i < motion.rows(); ++i) flat.segment<3>(3 * i) = motion.row(i).transpose();
+  const Eigen::VectorXd relative = matrix_.transpose() * flat;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < packing_.contact_count(); ++c) {
+    const double mu = packing_[ContactId(c)].mu;
+    const double tangential = mu * std::abs(relative[2 * c + 1]);
+    smallest = std::min(smallest, (relative[2 * c] - tangential) / std::hypot(1.0, mu));
+  }
+  return smallest;
+}
+
+}  // namespace indet

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs the main job: the force ranges of a packing that LAMMPS made.
+# Usage: ./run.sh [OUTPUT_FOLDER]    (default: out)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+out=${1:-out}
+
+cmake/install-packages.sh
+[ -f build/release/build.ninja ] || cmake --preset release >/dev/null
+cmake --build --preset release --target indet -- --quiet
+
+indet=build/release/indet
+data=tests/data/lammps
+mkdir -p "$out"
+echo "== import"
+"$indet" import --format lammps --atoms $data/atoms.dump --contacts $data/contacts.dump --friction 0.3 -o "$out/lammps.h5"
+echo
+echo "== analyze"
+"$indet" analyze "$out/lammps.h5" -o "$out/lammps.ranges.h5"
+echo
+echo "== verify"
+"$indet" verify "$out/lammps.ranges.h5"
+"$indet" export "$out/lammps.ranges.h5" --format svg --style delta-R -o "$out/lammps.delta-R.svg" >/dev/null
+"$indet" export "$out/lammps.ranges.h5" --format svg --state max-norm -o "$out/lammps.max-norm.svg" >/dev/null
+echo
+echo "results:  $(realpath "$out/lammps.ranges.h5")"
+echo "pictures: $(realpath "$out/lammps.delta-R.svg")  (range of every contact force)"
+echo "          $(realpath "$out/lammps.max-norm.svg")  (the extremal state of largest norm)"
