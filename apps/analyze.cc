@@ -162,7 +162,9 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
     const Contact& contact = packing[ContactId(k)];
     const std::string other = contact.b.is_wall() ? "wall " + packing[contact.b.wall_id()].name
                                                   : std::to_string(packing[contact.b.disk_id()].id);
-    const auto value = ranges.value.row(k) / ranges.force_unit;
+    Eigen::Array4d value = ranges.value.row(k).transpose() / ranges.force_unit;
+    // 4e-15 is rounding around 0; the file has the digits.
+    for (double& v : value) v = std::abs(v) < tolerance::kSliding ? 0 : v;
     fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
                fmt::format("{}–{}", packing[contact.a].id, other), value[kMinR], value[kMaxR], value[kMinT],
                value[kMaxT]);
@@ -170,9 +172,9 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
 }
 
 void print_summary(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
-  fmt::print("{} disks, {} contacts: {} unknown forces, {} equations, rank {}, nullity {}\n",
-             packing.disk_count(), packing.contact_count(), ranges.unknowns, ranges.equations, ranges.rank,
-             ranges.nullity);
+  fmt::print("{}, {}: {} unknown forces, {} equations, rank {}, nullity {}\n",
+             counted(packing.disk_count(), "disk"), counted(packing.contact_count(), "contact"),
+             ranges.unknowns, ranges.equations, ranges.rank, ranges.nullity);
   if (ranges.rank_ambiguous) {
     fmt::print(
         "The rank is ambiguous (singular values {:.1e} accepted, {:.1e} rejected): every result is marked "
@@ -203,12 +205,14 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     const Statistics s = statistics(values);
     fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
   };
-  fmt::print("\nindeterminacy (mg)\n");
-  line("δR", ranges.delta_R);
-  line("δT", ranges.delta_T);
-  line("dR", ranges.d_R);
-  line("dT", ranges.d_T);
-  if (ranges.delta_R.size() > 0) print_extremes(packing, ranges);
+  if (packing.contact_count() > 0) {
+    fmt::print("\nindeterminacy (mg)\n");
+    line("δR", ranges.delta_R);
+    line("δT", ranges.delta_T);
+    line("dR", ranges.d_R);
+    line("dT", ranges.d_T);
+    print_extremes(packing, ranges);
+  }
   double total = 0;
   for (const auto& [stage, seconds] : ranges.seconds) total += seconds;
   fmt::print("\nwritten to {} ({:.2f} s)\n", output, total);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,9 @@ class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// "1 disk", "2 disks".
+std::string counted(std::int64_t number, const std::string& noun);
 
 /// What every subcommand shares: the global options, the terminal, the configuration that was resolved.
 struct Context {

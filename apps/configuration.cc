@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "indet/base/error.h"
@@ -28,25 +30,49 @@ std::string text_of(const toml::node& node, const std::string& place) {
   throw InputError(place + ": expected text, a number, true or false, or a list of these");
 }
 
-/// Adds "--key=value" for every key of a table that is not set otherwise.
-void add_settings(const toml::table& table, const CLI::App& command, const std::string& file,
-                  std::vector<std::string>& out) {
+/// Options that a file sets.
+struct Settings {
+  std::vector<std::string> arguments;         ///< as on a command line
+  std::map<std::string, std::string> places;  ///< "--key" → "FILE:LINE: key"
+};
+
+/// Adds "--key=value" for every key of a table that is not set otherwise. Options of a subcommand that does
+/// not run are checked, and left out.
+void add_settings(const toml::table& table, const CLI::App& command, const std::string& file, bool runs,
+                  Settings& settings) {
   for (const auto& [key, node] : table) {
-    if (node.is_table()) continue;
+    const CLI::Option* option = command.get_option_no_throw("--" + std::string(key.str()));
+    const bool is_root = command.get_parent() == nullptr;
+    if (node.is_table() && is_root && option == nullptr) continue;  // of a subcommand
     const std::string name(key.str());
     const std::string place = fmt::format("{}:{}: {}", file, node.source().begin.line, name);
-    const CLI::Option* option = command.get_option_no_throw("--" + name);
     if (option == nullptr || !is_setting(*option)) {
-      throw InputError(fmt::format("{} is not an option of '{}' (see {} --help)", place, command.get_name(),
-                                   command.get_name()));
+      const std::string words = is_root ? command.get_name() : "indet " + command.get_name();
+      throw InputError(fmt::format("{} is not an option of '{}' (see {} --help)", place, words, words));
     }
-    if (option->count() > 0) continue;  // the command line or the environment comes first
+    std::vector<std::string> values;
     if (const auto* array = node.as_array()) {
-      out.push_back("--" + name);
-      for (const auto& item : *array) out.push_back(text_of(item, place));
+      for (const auto& item : *array) values.push_back(text_of(item, place));
     } else {
-      out.push_back(fmt::format("--{}={}", name, text_of(node, place)));
+      values.push_back(text_of(node, place));
     }
+    if (!runs || option->count() > 0) continue;  // the command line or the environment comes first
+    settings.places["--" + name] = place;
+    if (node.is_array()) {
+      settings.arguments.push_back("--" + name);
+      settings.arguments.insert(settings.arguments.end(), values.begin(), values.end());
+    } else {
+      settings.arguments.push_back(fmt::format("--{}={}", name, values.front()));
+    }
+  }
+}
+
+toml::table read_toml(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw InputError(file + ": there is no such file");
+  try {
+    return toml::parse_file(file);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
   }
 }
 
@@ -100,6 +126,16 @@ toml::table settings_of(const CLI::App& command) {
 
 }  // namespace
 
+CLI::Validator not_negative() {
+  return {[](const std::string& text) -> std::string {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool is_number = error == std::errc() && end == text.data() + text.size();
+            return is_number && value >= 0 ? "" : fmt::format("\"{}\" is not a number ≥ 0", text);
+          },
+          "NONNEGATIVE"};
+}
+
 void name_environment_variables(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_lnames().empty() || option->get_lnames().front() == "help" ||
@@ -113,22 +149,16 @@ void name_environment_variables(CLI::App& command) {
 }
 
 void parse_with_configuration(CLI::App& root, const std::vector<std::string>& arguments,
-                              const std::string& config_file) {
+                              const std::string& file) {
   const auto parse = [&root](std::vector<std::string> list) {
     std::reverse(list.begin(), list.end());  // CLI11 takes them last first
     root.parse(list);
   };
   parse(arguments);
-  if (config_file.empty()) return;
-  const std::string file = config_file;
-  toml::table table;
-  try {
-    table = toml::parse_file(file);
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
-  }
-  std::vector<std::string> all = arguments;
-  add_settings(table, root, file, all);
+  if (file.empty()) return;
+  const toml::table table = read_toml(file);
+  Settings settings;
+  add_settings(table, root, file, true, settings);
   for (const auto& [key, node] : table) {
     if (!node.is_table()) continue;
     const std::string name(key.str());
@@ -137,10 +167,19 @@ void parse_with_configuration(CLI::App& root, const std::vector<std::string>& ar
     if (commands.empty()) {
       throw InputError(fmt::format("{}:{}: '{}' is not a subcommand", file, node.source().begin.line, name));
     }
-    const CLI::App* command = commands.front();
-    if (command->parsed()) add_settings(*node.as_table(), *command, file, all);
+    add_settings(*node.as_table(), *commands.front(), file, commands.front()->parsed(), settings);
   }
-  parse(all);
+  std::vector<std::string> all = arguments;
+  all.insert(all.end(), settings.arguments.begin(), settings.arguments.end());
+  try {
+    parse(all);
+  } catch (const CLI::ParseError& error) {
+    // "--key: reason": the command line alone was fine, so the value comes from the file.
+    const std::string text = error.what();
+    const auto place = settings.places.find(text.substr(0, text.find(':')));
+    if (place == settings.places.end()) throw;
+    throw InputError(place->second + text.substr(place->first.size()));
+  }
 }
 
 std::string resolved_configuration(const CLI::App& root, const CLI::App& command) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command.h"
+#include "configuration.h"
 #include "indet/io/balance.h"
 #include "indet/io/csv_reader.h"
 #include "indet/io/lammps_reader.h"
@@ -96,14 +97,16 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
 
 void print_report(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
   const Packing& packing = imported.packing;
-  fmt::print("{} disks, {} walls, {} contacts, gravity ({:g}, {:g}), mg = {:.6g}\n", packing.disk_count(),
-             packing.wall_count(), packing.contact_count(), packing.gravity.x(), packing.gravity.y(),
-             packing.force_unit());
+  fmt::print("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", counted(packing.disk_count(), "disk"),
+             counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"),
+             packing.gravity.x(), packing.gravity.y(), packing.force_unit());
   if (report.forces_known) {
-    fmt::print("force residual      {:.2e} mg (disk {})\n", report.force_residual,
-               packing[report.worst_force].id);
-    fmt::print("torque residual     {:.2e} mg r (disk {})\n", report.torque_residual,
-               packing[report.worst_torque].id);
+    // Where nothing is left over there is no worst disk.
+    const auto name = [&](DiskId disk) {
+      return disk.value() < 0 ? "" : fmt::format(" (disk {})", packing[disk].id);
+    };
+    fmt::print("force residual      {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
+    fmt::print("torque residual     {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
     fmt::print("                    accepted up to {:.0e} mg\n", tolerance);
     fmt::print("Coulomb violations  {}", report.coulomb_violations);
     if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);
@@ -155,11 +158,10 @@ Command add_import(CLI::App& root) {
   command->add_option("--contacts", options->lammps.contacts, "lammps: dump local (per contact)");
   command->add_option("--timestep", options->lammps.timestep, "lammps: frame to read (default: the last)");
   command->add_option("--friction", options->friction, "lammps: friction coefficient of all contacts")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--gravity", options->gravity, "lammps: acceleration x,y")
+      ->check(not_negative());
+  command->add_option("--gravity", options->gravity, "lammps: acceleration x,y (default: 0,-1)")
       ->delimiter(',')
-      ->expected(2)
-      ->capture_default_str();
+      ->expected(2);
   command
       ->add_option("--columns", options->columns,
                    "lammps: other names of columns, NAME=COLUMN,… (id, x, y, radius, mass, vx, vy, omegaz, "
@@ -169,7 +171,7 @@ Command add_import(CLI::App& root) {
       ->add_option("--balance-tol", options->balance_tolerance,
                    "Largest residual of force or torque in mg (default: 1e-6, more for files with few "
                    "digits)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->add_option("-o,--output", options->output, "HDF5 file to write (required)");
   return {command, [options, command](const Context& context) { return run(*options, *command, context); }};
 }

@@ -47,7 +47,7 @@ int run(int argc, char** argv) {
   root.add_option("--config", config_file, "Read options from this TOML file (a table for each subcommand)")
       ->type_name("FILE");
   root.add_option("--threads", context.threads, "Threads to use; results do not depend on it (0: one a core)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   root.add_flag("--json", context.json, "Print one JSON document on stdout");
   root.add_flag("--quiet", context.quiet, "Print neither progress nor notes");
@@ -58,6 +58,11 @@ int run(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     parse_with_configuration(root, arguments, config_file);
+  } catch (const CLI::RequiredError& error) {
+    if (root.get_subcommands().empty() && !root.remaining().empty()) {
+      throw UsageError(fmt::format("'{}' is not a subcommand (see indet --help)", root.remaining().front()));
+    }
+    return root.exit(error) == 0 ? kDone : kUsage;
   } catch (const CLI::ParseError& error) {
     return root.exit(error) == 0 ? kDone : kUsage;
   }
