@@ -88,6 +88,9 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
   SearchOptions cone_options = options;
   cone_options.formulation = Formulation::kDual;
   cone_options.canonical_states = false;
+  if (options.progress) {  // these searches may be stopped too, but settle no range yet
+    cone_options.progress = [&](std::int64_t, std::int64_t total) { return options.progress(0, total); };
+  }
   const Basis apex =
       walk_to_vertex(cone, Eigen::VectorXd::Zero(cone.dim()), Eigen::VectorXd::Zero(cone.dim()));
   Eigen::VectorXd cone_weight(weight.size() + 1);

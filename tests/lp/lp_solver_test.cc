@@ -1,0 +1,145 @@
+#include "indet/lp/lp_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "indet/base/random.h"
+#include "indet/lp/vertex.h"
+#include "indet/lp/walk.h"
+#include "support/oracle.h"
+#include "support/sets.h"
+
+namespace indet {
+namespace {
+
+class Formulations : public testing::TestWithParam<Formulation> {};
+
+std::vector<std::pair<int, double>> random_functional(const FeasibleSet& set, Random& random) {
+  std::vector<std::pair<int, double>> on_edges;
+  for (int k = 0; k < set.inequalities(); ++k)
+    if (random.below(2) == 0) on_edges.emplace_back(k, random.normal());
+  return on_edges;
+}
+
+/// Best value of g·z over the corners that lie on the held faces.
+double best_corner(const FeasibleSet& set, const oracle::Corners& corners, const Objective& objective,
+                   const std::vector<int>& held) {
+  double best = -1e300;
+  for (Eigen::Index i = 0; i < corners.vertices.rows(); ++i) {
+    const Eigen::VectorXd z = corners.vertices.row(i).transpose();
+    bool on_face = true;
+    for (const int k : held) on_face = on_face && std::abs(set.offset[k] + set.slope.row(k).dot(z)) < 1e-9;
+    if (on_face) best = std::max(best, objective.along_z.dot(z));
+  }
+  return best;
+}
+
+double value_of(const FeasibleSet& set, const Objective& objective, const LpAnswer& answer) {
+  const Vertex vertex = compute_vertex(set, answer.basis);
+  EXPECT_LE(vertex.infeasibility(), 1e-9);
+  return objective.along_z.dot(vertex.z);
+}
+
+TEST_P(Formulations, FindTheBestCornerWarmAndCold) {
+  Random random(41);
+  for (int repeat = 0; repeat < 80; ++repeat) {
+    const int d = 1 + static_cast<int>(random.below(5));
+    const FeasibleSet set =
+        test::random_polytope(d, static_cast<int>(random.below(7)), repeat % 2 == 1, random);
+    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
+    LpSolver solver(set, GetParam());
+    Basis last;
+    for (int goal = 0; goal < 4; ++goal) {
+      SCOPED_TRACE(std::to_string(repeat) + ", " + std::to_string(goal));
+      const Objective objective = make_objective(set, random_functional(set, random));
+      const double best = best_corner(set, corners, objective, {});
+      const LpAnswer cold = solver.maximise(objective, {});
+      ASSERT_EQ(cold.status, LpStatus::kOptimal);
+      EXPECT_NEAR(value_of(set, objective, cold), best, 1e-9);
+      const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+      for (const Basis& from : {start, last, cold.basis}) {
+        if (from.empty()) continue;
+        const LpAnswer warm = solver.maximise(objective, from);
+        ASSERT_EQ(warm.status, LpStatus::kOptimal);
+        EXPECT_EQ(warm.attempts, 1);
+        EXPECT_TRUE(std::is_sorted(warm.basis.begin(), warm.basis.end()));
+        EXPECT_NEAR(value_of(set, objective, warm), best, 1e-9);
+      }
+      EXPECT_EQ(solver.maximise(objective, cold.basis).pivots, 0) << "an optimal start needs no pivot";
+      last = cold.basis;
+    }
+  }
+}
+
+TEST_P(Formulations, AnswersDependOnTheArgumentsAlone) {
+  Random random(42);
+  const FeasibleSet set = test::random_polytope(5, 12, true, random);
+  const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
+  LpSolver used(set, GetParam());
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const Objective objective = make_objective(set, random_functional(set, random));
+    LpSolver fresh(set, GetParam());
+    const LpAnswer first = used.maximise(objective, start);
+    const LpAnswer second = fresh.maximise(objective, start);
+    EXPECT_EQ(first.basis, second.basis);
+    EXPECT_EQ(first.pivots, second.pivots);
+  }
+}
+
+TEST_P(Formulations, HeldFacesAreKeptAndThenReleased) {
+  Random random(43);
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    const int d = 2 + static_cast<int>(random.below(3));
+    const FeasibleSet set = test::random_polytope(d, 5, repeat % 2 == 1, random);
+    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
+    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    LpSolver solver(set, GetParam());
+    const std::vector<int> held(start.begin(), start.begin() + 1 + static_cast<long>(random.below(2)));
+    const Objective objective = make_objective(set, random_functional(set, random));
+    SCOPED_TRACE(repeat);
+    const LpAnswer on_face = solver.maximise(objective, start, held);
+    ASSERT_EQ(on_face.status, LpStatus::kOptimal);
+    EXPECT_NEAR(value_of(set, objective, on_face), best_corner(set, corners, objective, held), 1e-9);
+    const Vertex vertex = compute_vertex(set, on_face.basis);
+    for (const int k : held) EXPECT_NEAR(vertex.x[k], 0, 1e-12);
+    const LpAnswer free = solver.maximise(objective, start);
+    EXPECT_NEAR(value_of(set, objective, free), best_corner(set, corners, objective, {}), 1e-9);
+  }
+}
+
+TEST_P(Formulations, TellUnboundedFromOptimal) {
+  FeasibleSet set;  // z0 ≥ 0, z1 ≥ 0, z0 − z1 ≥ −1
+  set.slope.resize(3, 2);
+  set.slope << 1, 0, 0, 1, 1, -1;
+  set.offset = Eigen::Vector3d(0, 0, 1);
+  test::describe_implicitly(set);
+  LpSolver solver(set, GetParam());
+  for (const Basis& start : {Basis{}, Basis{0, 1}}) {
+    EXPECT_EQ(solver.maximise(make_objective(set, {{0, 1.0}}), start).status, LpStatus::kUnbounded);
+    EXPECT_EQ(solver.maximise(make_objective(set, {{1, 1.0}}), start).status, LpStatus::kUnbounded);
+    const Objective down = make_objective(set, {{1, 1.0}, {0, -2.0}});
+    const LpAnswer answer = solver.maximise(down, start);
+    ASSERT_EQ(answer.status, LpStatus::kOptimal);
+    EXPECT_EQ(value_of(set, down, answer), 1);  // at (0, 1)
+  }
+}
+
+TEST_P(Formulations, TellInfeasibleSets) {
+  FeasibleSet set;  // z0 ≥ 1, z0 ≤ 0, z1 ∈ [0, 1]
+  set.slope.resize(4, 2);
+  set.slope << 1, 0, -1, 0, 0, 1, 0, -1;
+  set.offset = Eigen::Vector4d(-1, 0, 0, 1);
+  test::describe_implicitly(set);
+  LpSolver solver(set, GetParam());
+  const LpAnswer answer = solver.maximise(make_objective(set, {{2, 1.0}}), {});
+  EXPECT_EQ(answer.status, LpStatus::kInfeasible);
+  EXPECT_TRUE(answer.basis.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Lp, Formulations,
+                         testing::Values(Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge),
+                         [](const auto& tested) { return to_string(tested.param); });
+
+}  // namespace
+}  // namespace indet

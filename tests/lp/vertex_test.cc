@@ -1,0 +1,95 @@
+#include "indet/lp/vertex.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "indet/base/error.h"
+#include "indet/base/random.h"
+#include "indet/lp/walk.h"
+#include "support/sets.h"
+
+namespace indet {
+namespace {
+
+TEST(Walk, EndsAtAFeasibleVertexAndNeverLosesTheGuide) {
+  Random random(51);
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    const int d = 1 + static_cast<int>(random.below(6));
+    const FeasibleSet set =
+        test::random_polytope(d, static_cast<int>(random.below(10)), repeat % 2 == 1, random);
+    Eigen::VectorXd guide(d);
+    for (double& g : guide) g = random.normal();
+    const Eigen::VectorXd from = Eigen::VectorXd::Constant(d, 0.01);
+    for (const Eigen::VectorXd& along : {guide, Eigen::VectorXd(Eigen::VectorXd::Zero(d))}) {
+      const Basis basis = walk_to_vertex(set, from, along);
+      ASSERT_EQ(static_cast<int>(basis.size()), d);
+      EXPECT_TRUE(std::is_sorted(basis.begin(), basis.end()));
+      const Vertex vertex = compute_vertex(set, basis);
+      EXPECT_LE(vertex.infeasibility(), 1e-10) << repeat;
+      EXPECT_GE(along.dot(vertex.z), along.dot(from) - 1e-10);
+    }
+  }
+}
+
+TEST(Walk, FindsTheVertexOfAnUnboundedSet) {
+  FeasibleSet set;
+  set.slope = Eigen::Matrix2d::Identity();
+  set.offset = Eigen::Vector2d::Zero();
+  EXPECT_EQ(walk_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), (Basis{0, 1}));
+}
+
+TEST(Walk, RefusesASetWithALine) {
+  FeasibleSet set;
+  set.slope = Eigen::RowVector2d(1, 0);
+  set.offset = Eigen::VectorXd::Zero(1);
+  EXPECT_THROW(walk_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), LibraryError);
+}
+
+TEST(Vertex, SatisfiesItsInequalitiesAndItsMultipliersReproduceTheObjective) {
+  Random random(52);
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    const int d = 1 + static_cast<int>(random.below(5));
+    const FeasibleSet set = test::random_polytope(d, 6, repeat % 2 == 1, random);
+    const Basis basis = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Vertex vertex = compute_vertex(set, basis);
+    for (const int k : basis) {
+      EXPECT_EQ(vertex.x[k], 0);
+      EXPECT_NEAR(set.offset[k] + set.slope.row(k).dot(vertex.z), 0, 1e-13);
+    }
+    const Objective objective = make_objective(set, {{0, 2.0}, {d, -1.0}});
+    EXPECT_LE((objective.along_z - 2 * set.slope.row(0).transpose() + set.slope.row(d).transpose()).norm(),
+              1e-15);
+    const Eigen::VectorXd costs = vertex.multipliers(objective.along_z);
+    EXPECT_LE((set.slope(basis, Eigen::all).transpose() * costs + objective.along_z).norm(), 1e-12);
+    for (int k = 0; k < d; ++k) {
+      // Leaving inequality k by one unit loses its multiplier.
+      EXPECT_NEAR(objective.along_z.dot(vertex.edge(k)), -costs[k], 1e-12);
+      const double length = edge_length(set, vertex, k);
+      ASSERT_TRUE(std::isfinite(length));
+      const Eigen::VectorXd end = set.offset + set.slope * (vertex.z + length * vertex.edge(k));
+      EXPECT_GE(end.minCoeff(), -1e-10);
+      const Eigen::VectorXd beyond = set.offset + set.slope * (vertex.z + (length + 1e-3) * vertex.edge(k));
+      EXPECT_LT(beyond.minCoeff(), -1e-6);
+    }
+  }
+}
+
+TEST(Vertex, EdgeOfAnUnboundedSetHasNoEnd) {
+  FeasibleSet set;
+  set.slope = Eigen::Matrix2d::Identity();
+  set.offset = Eigen::Vector2d::Zero();
+  EXPECT_EQ(edge_length(set, compute_vertex(set, {0, 1}), 0), std::numeric_limits<double>::infinity());
+}
+
+TEST(Vertex, DependentRowsAreRefused) {
+  FeasibleSet set;
+  set.slope.resize(3, 2);
+  set.slope << 1, 0, 2, 0, 0, 1;
+  set.offset = Eigen::Vector3d(1, 1, 1);
+  EXPECT_THROW(compute_vertex(set, {0, 1}), LibraryError);
+  EXPECT_THROW(compute_vertex(set, {0}), LibraryError);
+}
+
+}  // namespace
+}  // namespace indet

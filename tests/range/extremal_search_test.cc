@@ -1,0 +1,104 @@
+#include "indet/range/extremal_search.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "indet/base/random.h"
+#include "indet/lp/walk.h"
+#include "support/compare.h"
+#include "support/oracle.h"
+#include "support/sets.h"
+
+namespace indet {
+namespace {
+
+using test::random_polytope;
+
+std::vector<Component> components_of(const FeasibleSet& set) {
+  std::vector<Component> components;
+  for (int k = 0; k + 1 < set.inequalities(); ++k)
+    components.push_back({{{k, 1.0}, {k + 1, k % 2 == 0 ? 1.0 : -1.0}}});
+  return components;
+}
+
+TEST(ExtremalSearch, FindsTheExtremaOfAllVertices) {
+  Random random(31);
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    const int d = 1 + static_cast<int>(random.below(4));
+    const FeasibleSet set =
+        random_polytope(d, 2 + static_cast<int>(random.below(6)), repeat % 2 == 1, random);
+    const std::vector<Component> components = components_of(set);
+    const Eigen::VectorXd weight = Eigen::VectorXd::Ones(set.inequalities());
+    const auto corners = oracle::enumerate_corners(set.slope, set.offset);
+    const Eigen::MatrixXd x = (corners.vertices * set.slope.transpose()).rowwise() + set.offset.transpose();
+    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
+      SCOPED_TRACE(std::to_string(repeat) + " " + to_string(formulation));
+      SearchOptions options;
+      options.formulation = formulation;
+      const SearchResult found = search_extrema(set, components, weight, start, options);
+      for (std::size_t c = 0; c < components.size(); ++c) {
+        Eigen::VectorXd values = Eigen::VectorXd::Zero(x.rows());
+        for (const auto& [index, coefficient] : components[c].on_edges) values += coefficient * x.col(index);
+        for (const double sign : {-1.0, 1.0}) {
+          const Extremum& extremum = sign < 0 ? found.minimum[c] : found.maximum[c];
+          ASSERT_EQ(extremum.status, Extremum::Status::kOptimal);
+          const double best = (sign * values).maxCoeff();
+          EXPECT_NEAR(sign * extremum.value, best, 1e-9);
+          int attained = 0;
+          double lightest = std::numeric_limits<double>::infinity();
+          for (Eigen::Index i = 0; i < values.size(); ++i) {
+            if (sign * values[i] < best - 1e-8) continue;
+            ++attained;
+            lightest = std::min(lightest, x.row(i).sum());
+          }
+          EXPECT_EQ(extremum.unique, attained == 1);
+          EXPECT_NEAR(found.vertices[static_cast<std::size_t>(extremum.vertex)].x.sum(), lightest, 1e-8);
+          EXPECT_LE(extremum.dual_residual, 1e-9);
+        }
+      }
+      EXPECT_LE(found.solves, static_cast<std::int64_t>(10 * components.size()));
+    }
+  }
+}
+
+TEST(ExtremalSearch, LeavesOutWhatIsNotWanted) {
+  Random random(32);
+  const FeasibleSet set = random_polytope(3, 4, false, random);
+  std::vector<Component> components = components_of(set);
+  components[0].minimise = false;
+  components[1].maximise = false;
+  const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3));
+  const SearchResult found =
+      search_extrema(set, components, Eigen::VectorXd::Ones(set.inequalities()), start, {});
+  EXPECT_EQ(found.minimum[0].status, Extremum::Status::kOpen);
+  EXPECT_EQ(found.maximum[1].status, Extremum::Status::kOpen);
+  EXPECT_EQ(found.maximum[0].status, Extremum::Status::kOptimal);
+}
+
+TEST(ExtremalSearch, UnboundedFunctionalsAreTold) {
+  FeasibleSet set;  // the quadrant, and the strip z0 − z1 ≥ −1
+  set.slope.resize(3, 2);
+  set.slope << 1, 0, 0, 1, 1, -1;
+  set.offset.resize(3);
+  set.offset << 0, 0, 1;
+  set.equations = Eigen::RowVector3d(1, -1, -1).sparseView();
+  set.right_hand_side = set.equations * set.offset;
+  const std::vector<Component> components = {{{{0, 1.0}}}, {{{1, 1.0}}}, {{{0, 1.0}, {2, -1.0}}}};
+  for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
+    SearchOptions options;
+    options.formulation = formulation;
+    const SearchResult found = search_extrema(set, components, Eigen::Vector3d::Ones(), {0, 1}, options);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(found.maximum[static_cast<std::size_t>(c)].status, Extremum::Status::kUnbounded) << c;
+      EXPECT_EQ(found.minimum[static_cast<std::size_t>(c)].status, Extremum::Status::kOptimal) << c;
+    }
+    EXPECT_EQ(found.minimum[2].value, -1);  // z1 − 1 at z1 = 0
+    EXPECT_FALSE(found.minimum[2].unique);
+  }
+}
+
+}  // namespace
+}  // namespace indet
