@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
@@ -18,16 +17,12 @@ constexpr double kMagnification = 1e4;
 
 /// Maximises by the dual formulation, and where that fails by the explicit one.
 LpAnswer maximise_robustly(const FeasibleSet& set, const Objective& objective, const Basis& start,
-                           const LpOptions& options, const char* purpose) {
+                           const LpOptions& options) {
   LpAnswer answer = LpSolver(set, Formulation::kDual, options).maximise(objective, start);
-  if (answer.status != LpStatus::kOptimal) {
-    const std::int64_t pivots = answer.pivots;
-    answer = LpSolver(set, Formulation::kNullSpace, options).maximise(objective, start);
-    answer.pivots += pivots;
-  }
-  if (answer.status != LpStatus::kOptimal) {
-    throw LibraryError(std::string("the linear program for ") + purpose + " could not be solved");
-  }
+  if (answer.status == LpStatus::kOptimal) return answer;
+  const std::int64_t pivots = answer.pivots;
+  answer = LpSolver(set, Formulation::kNullSpace, options).maximise(objective, start);
+  answer.pivots += pivots;
   return answer;
 }
 
@@ -55,13 +50,18 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
 
   Eigen::VectorXd origin = Eigen::VectorXd::Zero(d + 1);
   origin[d] = lifted.offset.minCoeff();
-  const LpAnswer answer = maximise_robustly(lifted, height, walk_to_vertex(lifted, origin, height.along_z),
-                                            options, "an interior point");
+  const Basis start = walk_to_vertex(lifted, origin, height.along_z);
+  const LpAnswer answer = maximise_robustly(lifted, height, start, options);
+  const bool solved = answer.status == LpStatus::kOptimal;
   result.pivots = answer.pivots;
-  const Vertex vertex = compute_vertex(lifted, answer.basis);
+  // Any point with t > 0 is as good as the optimum; the walk may have found one where the solver gave up.
+  const Vertex vertex = compute_vertex(lifted, solved ? answer.basis : start);
+  if (!solved && !(vertex.z[d] > 0))
+    throw LibraryError("the linear program for an interior point could not be solved");
   result.z = vertex.z.head(d) / kMagnification;
   result.slack = vertex.z[d] / kMagnification;
   result.infeasibility = vertex.infeasibility() / kMagnification;
+  if (!solved) return result;
   const Eigen::VectorXd multipliers = vertex.multipliers(height.along_z);
   for (int i = 0; i <= d; ++i) {
     const int k = vertex.basis[static_cast<std::size_t>(i)];
@@ -84,7 +84,9 @@ RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options
   Objective total;
   total.along_z = set.slope.colwise().sum().transpose();
   const Basis start = walk_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z);
-  const LpAnswer answer = maximise_robustly(cone, total, start, options, "a recession ray");
+  const LpAnswer answer = maximise_robustly(cone, total, start, options);
+  if (answer.status != LpStatus::kOptimal)
+    throw LibraryError("the linear program for a recession ray could not be solved");
   const Vertex vertex = compute_vertex(cone, answer.basis);
   RecessionRay ray;
   ray.pivots = answer.pivots;

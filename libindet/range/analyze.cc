@@ -185,9 +185,9 @@ void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
 
 }  // namespace
 
-Formulation choose_formulation(int dim, int edges) {
-  static_cast<void>(edges);
-  return dim <= 200 ? Formulation::kDual : Formulation::kEdge;
+Formulation choose_formulation(int dim) {
+  constexpr int kCrossOver = 30;
+  return dim <= kCrossOver ? Formulation::kDual : Formulation::kEdge;
 }
 
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
@@ -200,12 +200,10 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
 
   SearchOptions search;
   int largest = 0;
-  int edges = 0;
   for (const PolytopeBlock& block : polytope.blocks) {
     largest = std::max(largest, block.set.dim());
-    edges = std::max(edges, block.set.inequalities());
   }
-  search.formulation = options.formulation.value_or(choose_formulation(largest, edges));
+  search.formulation = options.formulation.value_or(choose_formulation(largest));
   search.lp = options.lp;
   search.threads = options.threads;
   search.canonical_states = options.canonical_states;
