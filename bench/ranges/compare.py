@@ -43,7 +43,8 @@ def highs_seconds(path):
         a, b = file["contacts/body_a"][()], file["contacts/body_b"][()]
         normal, mu = file["contacts/normal"][()], file["contacts/mu"][()]
         mass, radius = file["particles/disks/mass"][()], file["particles/disks/radius"][()]
-        gravity, unit = file["parameters"].attrs["gravity"], file["parameters"].attrs["force_unit"]
+        gravity = file["parameters"].attrs["gravity"]
+    unit = np.linalg.norm(gravity) * mass.mean()
     matrix = np.zeros((3 * len(mass), 2 * len(a)))
     for contact in range(len(a)):
         for k, sign in enumerate((1, -1)):
