@@ -48,7 +48,7 @@ inline Lanes where(LaneMask mask, Lanes value) {
 }
 
 /// (a_0, b_0) and (a_1, b_1): turns vectors of two pairs into the components of both, and back.
-inline Lanes first_of(Lanes a, Lanes b) { return __builtin_shuffle(a, b, LaneMask{0, 2}); }
-inline Lanes second_of(Lanes a, Lanes b) { return __builtin_shuffle(a, b, LaneMask{1, 3}); }
+inline Lanes first_of(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 2); }
+inline Lanes second_of(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 1, 3); }
 
 }  // namespace indet::sim
