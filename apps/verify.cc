@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "command.h"
 #include "indet/io/packing_file.h"
 #include "indet/io/ranges_file.h"
+#include "indet/verify/exact_check.h"
 
 namespace indet::app {
 namespace {
@@ -29,19 +32,68 @@ Verification verify_file(const std::string& path, const Context& context) {
   return result;
 }
 
-int run(const std::string& path, const Context& context) {
+struct Options {
+  std::string file;
+  bool exact = false;
+};
+
+nlohmann::json to_json(const ExactCheck& check, double seconds) {
+  return {{"rank", check.rank},
+          {"proven", check.proven},
+          {"repaired", check.repaired},
+          {"refuted", check.refuted},
+          {"undecided", check.undecided},
+          {"contradictions", check.contradictions},
+          {"proves_emptiness", check.proves_emptiness},
+          {"pivots", check.pivots},
+          {"worst_error", check.worst_error},
+          {"worst_certified_error", check.worst_certified_error},
+          {"messages", check.messages},
+          {"seconds", seconds}};
+}
+
+void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seconds) {
+  if (ranges.status == PolytopeStatus::kEmpty) {
+    fmt::print("exact arithmetic: {} that the packing cannot stand",
+               check.proves_emptiness ? "proven" : "not proven");
+  } else {
+    fmt::print(
+        "exact arithmetic: {} proven, {} repaired, {} refuted, {} undecided; {} outside of their bounds",
+        check.proven, check.repaired, check.refuted, check.undecided, check.contradictions);
+  }
+  fmt::print("; {} pivots ({:.1f} s)\n", check.pivots, seconds);
+  for (const std::string& message : check.messages) fmt::print("  {}\n", message);
+  if (ranges.status != PolytopeStatus::kEmpty)
+    fmt::print("worst |stored − exact|: {:.1e} mg, of the certified {:.1e} mg\n", check.worst_error,
+               check.worst_certified_error);
+}
+
+int run(const Options& options, const Context& context) {
+  const std::string& path = options.file;
   const Verification result = verify_file(path, context);
+  std::optional<ExactCheck> check;
+  std::optional<ForceRanges> ranges;
+  double seconds = 0;
+  if (options.exact) {
+    const auto start = std::chrono::steady_clock::now();
+    ranges = read_ranges(path);
+    ExactCheckOptions exact;
+    exact.threads = context.thread_count();
+    exact.progress = context.progress();
+    check = check_exactly(read_packing(path), *ranges, exact);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
   if (context.json) {
-    std::cout << nlohmann::json{{"file", path},
-                                {"passed", result.passed()},
-                                {"checks", result.checks},
-                                {"contradictions", result.contradictions},
-                                {"messages", result.messages},
-                                {"worst_imbalance", result.worst_imbalance},
-                                {"worst_violation", result.worst_violation},
-                                {"worst_optimality_gap", result.worst_optimality_gap}}
-                     .dump(2)
-              << '\n';
+    nlohmann::json json{{"file", path},
+                        {"passed", result.passed() && (!check || check->passed())},
+                        {"checks", result.checks},
+                        {"contradictions", result.contradictions},
+                        {"messages", result.messages},
+                        {"worst_imbalance", result.worst_imbalance},
+                        {"worst_violation", result.worst_violation},
+                        {"worst_optimality_gap", result.worst_optimality_gap}};
+    if (check) json["exact"] = to_json(*check, seconds);
+    std::cout << json.dump(2) << '\n';
   } else {
     fmt::print("{}: {} checks, {} contradictions\n", path, result.checks, result.contradictions);
     for (const std::string& message : result.messages) fmt::print("  {}\n", message);
@@ -50,8 +102,9 @@ int run(const std::string& path, const Context& context) {
           "worst imbalance {:.1e} mg, worst contact violation {:.1e} mg, worst optimality gap {:.1e}\n",
           result.worst_imbalance, result.worst_violation, result.worst_optimality_gap);
     }
+    if (check) print_exact(*check, *ranges, seconds);
   }
-  return result.passed() ? kDone : kUncertain;
+  return result.passed() && (!check || check->passed()) ? kDone : kUncertain;
 }
 
 }  // namespace
@@ -59,9 +112,12 @@ int run(const std::string& path, const Context& context) {
 Command add_verify(CLI::App& root) {
   CLI::App* command = root.add_subcommand(
       "verify", "Re-check every stored result of a file from its packing alone, by other means than analyze");
-  const auto file = std::make_shared<std::string>();
-  command->add_option("file", *file, "The file to check")->required()->type_name("FILE.h5");
-  return {command, [file](const Context& context) { return run(*file, context); }};
+  const auto options = std::make_shared<Options>();
+  command->add_option("file", options->file, "The file to check")->required()->type_name("FILE.h5");
+  command->add_flag(
+      "--exact", options->exact,
+      "Prove every range in rational arithmetic, with the numbers of the packing taken as they are");
+  return {command, [options](const Context& context) { return run(*options, context); }};
 }
 
 }  // namespace indet::app

@@ -104,7 +104,7 @@ std::vector<ContactMode> natural_modes(const Packing& packing) {
 
 ContactMatrix build_contact_matrix(const Packing& packing, std::span<const ContactMode> modes) {
   ContactMatrix result;
-  result.force_unit = packing.force_unit();
+  result.force_unit = packing.internal_force_unit();
   result.modes.assign(modes.begin(), modes.end());
   const RowNumbering number(packing, modes, result.force_unit);
   result.rows = number.rows();

@@ -41,10 +41,10 @@ struct Edge {
 /// The equilibrium problem of a packing in dimensionless form, with the unknowns and equations that the scene
 /// needs.
 ///
-/// Paper: cF = −w [5, 15]. Here forces are in units of `force_unit`, and torque rows are divided by the
-/// disk's radius; the coefficients are then n̂, t̂ and 1, whatever the scale of the scene. A disk whose
-/// contacts are all frictionless has no torque row (unless a torque acts on it); a disk with neither contact
-/// nor load has no row.
+/// Paper: cF = −w [5, 15]. Here forces are in units of `force_unit` (Packing::internal_force_unit), and
+/// torque rows are divided by the disk's radius; the coefficients are then n̂, t̂ and 1, whatever the scale of
+/// the scene. A disk whose contacts are all frictionless has no torque row (unless a torque acts on it); a
+/// disk with neither contact nor load has no row.
 ///
 ///   columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or
 ///   nothing (kOpen) matrix · u = −wrench,   F = expand(u),   F = (R_1, T_1, …, R_M, T_M) in force units

@@ -433,6 +433,28 @@ struct Hdf5File::State {
   }
 };
 
+namespace {
+
+/// Writes into a file that exists, and syncs it; 0, or the error number.
+int write_synced(const fs::path& path, std::span<const unsigned char> bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  int error = 0;
+  while (!bytes.empty() && error == 0) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  if (error == 0 && ::fsync(descriptor) != 0) error = errno;
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  return error;
+}
+
+}  // namespace
+
 Hdf5File::Hdf5File(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
 Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
@@ -483,11 +505,20 @@ Hdf5File Hdf5File::create(const fs::path& path) {
       folder / fmt::format(".{}.{}.{}.tmp", path.filename().string(), getpid(), counter++);
   const Id creation = state->own(H5Pcreate(H5P_FILE_CREATE), "properties");
   state->check(H5Pset_obj_track_times(creation.get(), false), "properties");
-  const hid_t file = H5Fcreate(temporary.c_str(), H5F_ACC_EXCL, creation.get(), H5P_DEFAULT);
-  if (file < 0) {
-    throw InputError(fmt::format("{}: cannot be written ({})", path.string(), library_message()));
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    throw InputError(
+        fmt::format("{}: cannot be written ({})", path.string(), std::generic_category().message(errno)));
   }
+  ::close(descriptor);
   state->temporary = temporary;
+  // The file grows in memory and is written in one piece by commit(): when a write of its own fails (a full
+  // disk), HDF5 1.10 leaves a file that it cannot close, and crashes as the process ends.
+  constexpr std::size_t kGrowth = 1U << 20U;
+  const Id access = state->own(H5Pcreate(H5P_FILE_ACCESS), "access");
+  state->check(H5Pset_fapl_core(access.get(), kGrowth, false), "access");
+  const hid_t file = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
+  if (file < 0) state->fail("create", library_message());
   state->file = Id(file);
   return Hdf5File(std::move(state));
 }
@@ -578,22 +609,25 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 
 void Hdf5File::commit() {
   const Silence silence;
-  const auto sync = [&](const fs::path& path, int flags) {
-    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-    const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
-    const int reason = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    if (!good) state_->fail("sync", std::generic_category().message(reason));
-  };
   state_->check(H5Fflush(state_->file.get(), H5F_SCOPE_GLOBAL), "flush");
+  const ssize_t size = H5Fget_file_image(state_->file.get(), nullptr, 0);
+  if (size < 0) state_->fail("flush", library_message());
+  std::vector<unsigned char> image(static_cast<std::size_t>(size));
+  if (H5Fget_file_image(state_->file.get(), image.data(), image.size()) != size)
+    state_->fail("flush", library_message());
   state_->check(H5Fclose(state_->file.release()), "close");
-  sync(state_->temporary, O_RDONLY);
+  const int reason = write_synced(state_->temporary, image);
+  if (reason != 0) state_->fail("write", std::generic_category().message(reason));
   std::error_code error;
   fs::rename(state_->temporary, state_->path, error);
   if (error) state_->fail("rename", error.message());
   state_->temporary.clear();
   const fs::path folder = state_->path.has_parent_path() ? state_->path.parent_path() : fs::path(".");
-  sync(folder, O_RDONLY | O_DIRECTORY);
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int problem = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!good) state_->fail("sync", std::generic_category().message(problem));
 }
 
 bool Hdf5File::has(const std::string& path) const {

@@ -40,9 +40,9 @@ using EnumNames = std::vector<std::string>;
 /// Errors become Hdf5ReadError and Hdf5WriteError with the file, the object and the message of the HDF5
 /// library, whose own error stack stays silent. One thread at a time.
 ///
-/// Writing: data go to a temporary name in the folder of the target; commit() flushes, syncs and renames. A
-/// file that exists is therefore whole, and one that was not committed leaves nothing behind. Datasets above
-/// 64 KiB are chunked, shuffled, deflated and carry Fletcher-32 checksums.
+/// Writing: the file grows in memory; commit() writes it to a temporary name in the folder of the target,
+/// syncs and renames. A file that exists is therefore whole, and one that was not committed leaves nothing
+/// behind. Datasets above 64 KiB are chunked, shuffled, deflated and carry Fletcher-32 checksums.
 ///
 /// Reading: nothing in the file is trusted. Type, rank and shape are compared with what the caller expects
 /// and with the size of the file before memory is allocated; soft, external and virtual objects are refused.

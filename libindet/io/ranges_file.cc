@@ -69,6 +69,9 @@ template <class Ranges, class Visit>
 void for_each_table(Ranges& r, Visit visit) {
   visit("lower", r.lower, Label{"force", "lower end of the enclosure of R_min, R_max, T_min, T_max"});
   visit("upper", r.upper, Label{"force", "upper end of the enclosure of R_min, R_max, T_min, T_max"});
+  visit("sensitivity", r.sensitivity,
+        Label{"force/radian",
+              "how far the value moves at most, to first order, when every normal turns, per angle"});
   visit("primal_residual", r.primal_residual,
         Label{"mg", "violation of equilibrium and contact conditions by the extremal state"});
   visit("dual_residual", r.dual_residual, Label{"1", "largest reduced cost of the wrong sign"});

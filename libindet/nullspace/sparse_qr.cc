@@ -145,6 +145,11 @@ Eigen::VectorXd SparseQr::solve_transposed(const Eigen::VectorXd& b) const {
   return impl_->multiply(SPQR_QX, impl_->triangular_solve(SPQR_RTX_EQUALS_ETB, b));
 }
 
+Eigen::MatrixXd SparseQr::solve_transposed_columns(const Eigen::MatrixXd& b) const {
+  if (rank() == 0) return Eigen::MatrixXd::Zero(impl_->rows, b.cols());
+  return impl_->multiply(SPQR_QX, impl_->triangular_solve(SPQR_RTX_EQUALS_ETB, b));
+}
+
 Eigen::VectorXd SparseQr::solve(const Eigen::VectorXd& b) const {
   if (rank() == 0) return Eigen::VectorXd::Zero(impl_->columns);
   return impl_->triangular_solve(SPQR_RETX_EQUALS_B, impl_->multiply(SPQR_QTX, b));

@@ -32,6 +32,9 @@ class SparseQr {
   /// independent equations hold.
   Eigen::VectorXd solve_transposed(const Eigen::VectorXd& b) const;
 
+  /// The same for several right-hand sides, the columns of b.
+  Eigen::MatrixXd solve_transposed_columns(const Eigen::MatrixXd& b) const;
+
   /// A least-squares solution of A x = b that is zero outside the independent columns, n; b has size m.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 

@@ -20,6 +20,19 @@ double Packing::force_unit() const {
   return weight;
 }
 
+double Packing::internal_force_unit() const {
+  const double unit = force_unit();
+  double largest = 0;
+  for (int i = 0; i < disk_count(); ++i) {
+    Vector3 load = wrench(DiskId(i));
+    load.z() /= (*this)[DiskId(i)].radius;
+    largest = std::max(largest, load.lpNorm<Eigen::Infinity>());
+  }
+  constexpr double kFar = 1000;
+  if (largest == 0 || (largest < kFar * unit && unit < kFar * largest)) return unit;
+  return std::exp2(std::round(std::log2(largest)));
+}
+
 double Packing::max_radius() const {
   double radius = 0;
   for (const Disk& disk : disks) radius = std::max(radius, disk.radius);

@@ -101,6 +101,12 @@ struct Packing {
   /// unit.
   double force_unit() const;
 
+  /// The unit in which the equilibrium problem is solved and residuals are judged. force_unit(), unless that
+  /// says little about the scene: where the largest load on a disk is more than 1000 times larger or smaller,
+  /// the power of two next to that load. Tolerances then mean the same whatever unit a scene names. Throws
+  /// like force_unit().
+  double internal_force_unit() const;
+
   /// Radius of the largest disk, the unit of length (1 for a packing without disks).
   double max_radius() const;
 

@@ -6,6 +6,7 @@
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
+#include "indet/exact/certificate.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
 #include "indet/polytope/blocks.h"
@@ -47,16 +48,21 @@ bool is_doubtful(const InteriorPoint& interior, bool is_zero, double scale) {
   return interior.infeasibility > 0.5 * std::abs(interior.slack);
 }
 
-/// Multiplies a virtual motion back: the load does work, and no open edge of a contact resists by more than
-/// rounding.
-bool proves_emptiness(const ContactMatrix& contacts, const Eigen::VectorXd& motion) {
+/// A motion of the equations' rows, on the rows of the exact problem, largest entry 1.
+std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const ContactMatrix& contacts,
+                                  const Eigen::VectorXd& motion) {
+  std::vector<double> result(static_cast<std::size_t>(exact.rows()), 0);
   const double largest = motion.lpNorm<Eigen::Infinity>();
-  const double power = motion.dot(contacts.wrench) / largest;
-  const Eigen::VectorXd along_edges = contacts.edge_matrix.transpose() * (motion / largest);
-  const double resistance = along_edges.size() > 0 ? std::max(0.0, -along_edges.minCoeff()) : 0;
-  // What the load could do against that resistance must be small beside what it does.
-  return resistance * contacts.wrench.lpNorm<1>() < 1e-3 * power;
+  for (Eigen::Index i = 0; i < motion.size(); ++i) {
+    const EquilibriumRow& row = contacts.rows[static_cast<std::size_t>(i)];
+    const int number = exact.row(row.disk, row.component);
+    if (number >= 0) result[static_cast<std::size_t>(number)] = motion[i] / largest;
+  }
+  return result;
 }
+
+/// The number of an edge in the exact problem.
+int exact_number(const Edge& edge) { return 2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0); }
 
 /// A full-dimensional set with a point in its interior.
 struct InteriorSet {
@@ -69,12 +75,20 @@ struct InteriorSet {
 std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, const LpOptions& options,
                                                     ForcePolytope& polytope) {
   NullSpace null_space = polytope.null_space;
+  const exact::ContactProblem exact(packing);
+  std::vector<exact::Closing> closings;
   for (;;) {
     ContactMatrix& contacts = polytope.contacts;
     polytope.rank_ambiguous = polytope.rank_ambiguous || null_space.ambiguous;
     polytope.doubtful = polytope.doubtful || null_space.ambiguous;
+    const auto prove_emptiness = [&](const Eigen::VectorXd& motion) {
+      set_motion(packing, contacts, motion, polytope);
+      polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, {}) ||
+                          !exact::proves_emptiness(exact, on_exact_rows(exact, contacts, motion), closings,
+                                                   tolerance::kReducedCost);
+    };
     if (null_space.unbalanced.size() > 0) {
-      set_motion(packing, contacts, null_space.unbalanced, polytope);
+      prove_emptiness(null_space.unbalanced);
       return {};
     }
     FeasibleSet set = feasible_set(contacts, null_space);
@@ -87,23 +101,30 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
     const double scale = std::max(1.0, largest);
     const bool is_zero = std::abs(interior.slack) <= tolerance::kImplicitEquality * scale;
     polytope.doubtful = polytope.doubtful || is_doubtful(interior, is_zero, scale);
-    if (!is_zero && interior.slack > 0) return InteriorSet{set, interior.z};
+    if (!is_zero && interior.slack > 0) {
+      polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, null_space.rank);
+      return InteriorSet{set, interior.z};
+    }
+    const Eigen::VectorXd velocities = contacts.to_edges.transpose() * interior.multipliers;
+    Eigen::VectorXd motion = motion_from_contacts(contacts.matrix, velocities);
     if (!is_zero) {
-      const Eigen::VectorXd velocities = contacts.to_edges.transpose() * interior.multipliers;
-      Eigen::VectorXd motion = motion_from_contacts(contacts.matrix, velocities);
       if (motion.dot(contacts.wrench) < 0) motion = -motion;
-      polytope.doubtful = polytope.doubtful || !proves_emptiness(contacts, motion);
-      set_motion(packing, contacts, motion, polytope);
+      prove_emptiness(motion);
       return {};
     }
     std::vector<ContactMode> modes = contacts.modes;
+    exact::Closing closing{{}, on_exact_rows(exact, contacts, motion)};
     const double significant = interior.multipliers.maxCoeff() * tolerance::kReducedCost;
     for (int k = 0; k < set.inequalities(); ++k) {
       if (interior.multipliers[k] <= significant) continue;
       const Edge& edge = contacts.edges[static_cast<std::size_t>(k)];
       ContactMode& mode = modes[static_cast<std::size_t>(edge.contact.value())];
       mode = close_edge(mode, edge.sign);
+      closing.edges.push_back(exact_number(edge));
     }
+    if (closing.edges.empty())
+      throw LibraryError("rounding decides whether forces balance, and no decision could be found");
+    closings.push_back(std::move(closing));
     contacts = build_contact_matrix(packing, modes);
     null_space = compute_null_space(contacts.matrix, contacts.wrench);
   }

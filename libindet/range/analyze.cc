@@ -6,13 +6,16 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
+#include "indet/exact/certificate.h"
 #include "indet/lp/walk.h"
 #include "indet/polytope/force_polytope.h"
 #include "indet/polytope/interior.h"
 #include "indet/range/certify.h"
+#include "indet/range/enclosure.h"
 #include "indet/range/extremal_search.h"
 #include "indet/range/measures.h"
 #include "indet/range/state_table.h"
@@ -39,8 +42,8 @@ class Stopwatch {
 
 void size_tables(const Packing& packing, ForceRanges& ranges) {
   const Eigen::Index count = packing.contact_count();
-  for (auto* table :
-       {&ranges.value, &ranges.lower, &ranges.upper, &ranges.primal_residual, &ranges.dual_residual}) {
+  for (auto* table : {&ranges.value, &ranges.lower, &ranges.upper, &ranges.sensitivity,
+                      &ranges.primal_residual, &ranges.dual_residual}) {
     table->setConstant(count, 4, ForceRanges::kNaN);
   }
   ranges.outcome.setConstant(count, 4, Outcome::kNotRequested);
@@ -99,7 +102,8 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
   ranges.solves += growth.solves;
   ranges.pivots += growth.pivots;
   for (std::size_t c = 0; c < block.components.size(); ++c) {
-    const auto [contact, is_tangential] = block.names[c];
+    const ContactId contact = block.names[c].first;
+    const bool is_tangential = block.names[c].second;
     const auto mark = [&](bool& wanted, const Extremum& extremum, int column, double infinite) {
       const bool grows =
           extremum.status == Extremum::Status::kOptimal && std::abs(extremum.value) > tolerance::kRay;
@@ -119,7 +123,7 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
 }
 
 void search_block(const ForcePolytope& polytope, std::size_t number, const SearchOptions& options,
-                  StateTable& states, ForceRanges& ranges) {
+                  StateTable& states, std::vector<OptimalBasis>& optima, ForceRanges& ranges) {
   const PolytopeBlock& block = polytope.blocks[number];
   Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
@@ -133,20 +137,40 @@ void search_block(const ForcePolytope& polytope, std::size_t number, const Searc
   ranges.solves += found.solves;
   ranges.pivots += found.pivots;
   for (std::size_t c = 0; c < wanted.components.size(); ++c) {
-    const auto [contact, is_tangential] = wanted.names[c];
+    const ContactId contact = wanted.names[c].first;
+    const bool is_tangential = wanted.names[c].second;
     const auto store = [&](bool asked, const Extremum& extremum, int column) {
       if (!asked) return;
       const bool optimal = extremum.status == Extremum::Status::kOptimal;
       ranges.outcome(contact.value(), column) = optimal ? Outcome::kOptimal : Outcome::kFailed;
       if (!optimal) return;
-      ranges.vertex(contact.value(), column) =
-          states.add(number, found.vertices[static_cast<std::size_t>(extremum.vertex)]);
+      const Vertex& vertex = found.vertices[static_cast<std::size_t>(extremum.vertex)];
+      ranges.vertex(contact.value(), column) = states.add(number, vertex);
+      optima.push_back({contact.value(), column, number, extremum.proof});
       ranges.dual_residual(contact.value(), column) = extremum.dual_residual;
       ranges.unique(contact.value(), column) = extremum.unique && polytope.blocks.size() == 1 ? 1 : 0;
     };
     store(wanted.components[c].minimise, found.minimum[c], is_tangential ? kMinT : kMinR);
     store(wanted.components[c].maximise, found.maximum[c], is_tangential ? kMaxT : kMaxR);
   }
+}
+
+/// Repeats each ray in rational numbers. Where one is not a ray exactly, forces that grow along it are
+/// limited after all, and other values may belong to vertices that are far away.
+bool proves_rays(const Packing& packing, const ForceRanges& ranges) {
+  if (ranges.rays.rows() == 0) return true;
+  const exact::ContactProblem exact(packing);
+  for (Eigen::Index q = 0; q < ranges.rays.rows(); ++q) {
+    std::vector<double> strength(static_cast<std::size_t>(exact.edges()), 0);
+    for (int e = 0; e < exact.edges(); ++e) {
+      const double mu = packing[ContactId(e / 2)].mu;
+      const double R = ranges.rays(q, e - e % 2);
+      const double T = ranges.rays(q, e - e % 2 + 1);
+      strength[static_cast<std::size_t>(e)] = mu > 0 ? (R + (e % 2 == 0 ? T : -T) / mu) / 2 : R;
+    }
+    if (!exact::proves_ray(exact, strength, tolerance::kReducedCost)) return false;
+  }
+  return true;
 }
 
 /// Objectives that no linear program was needed for: their value is the same everywhere in F.
@@ -177,7 +201,6 @@ void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
   ranges.largest_rejected = null_space.largest_rejected;
   ranges.rank_ambiguous = polytope.rank_ambiguous;
   ranges.doubtful = polytope.doubtful;
-  ranges.force_unit = polytope.natural.force_unit;
   ranges.motion = polytope.motion;
   ranges.solves = polytope.solves;
   ranges.pivots = polytope.pivots;
@@ -196,6 +219,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   size_tables(packing, ranges);
   const ForcePolytope polytope = find_force_polytope(packing, options.lp);
   describe_problem(polytope, ranges);
+  ranges.force_unit = packing.force_unit();
   stopwatch.mark("polytope");
 
   SearchOptions search;
@@ -216,14 +240,18 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   }
   if (polytope.status != PolytopeStatus::kEmpty) {
     StateTable states(polytope);
+    std::vector<OptimalBasis> optima;
     for (std::size_t b = 0; b < polytope.blocks.size(); ++b) {
-      search_block(polytope, b, search, states, ranges);
+      search_block(polytope, b, search, states, optima, ranges);
       done += 2 * polytope.blocks[b].set.inequalities();
     }
     store_determined(states, ranges);
     states.write(ranges);
+    stopwatch.mark("ranges");
+    const bool proven = enclose_values(packing, polytope, optima, ranges) && proves_rays(packing, ranges);
+    ranges.doubtful = ranges.doubtful || !proven;
+    stopwatch.mark("enclosures");
   }
-  stopwatch.mark("ranges");
   certify(packing, ranges);
   compute_measures(packing, ranges);
   stopwatch.mark("measures");

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "indet/base/tolerances.h"
 #include "indet/contact/contact_matrix.h"
 
 namespace indet {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 void certify(const Packing& packing, ForceRanges& ranges) {
   const double unit = ranges.force_unit;
+  const double least = packing.internal_force_unit() / unit;
   Eigen::VectorXd residual(ranges.states.rows());
   Eigen::VectorXd scale(ranges.states.rows());
   ranges.residual = 0;
@@ -17,7 +21,7 @@ void certify(const Packing& packing, ForceRanges& ranges) {
     const Eigen::VectorXd forces = ranges.states.row(k).transpose();
     const double balance =
         packing.disk_count() > 0 ? equilibrium_residual(packing, forces).cwiseAbs().maxCoeff() : 0;
-    scale[k] = std::max(1.0, forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() / unit : 0.0);
+    scale[k] = std::max(least, forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() / unit : 0.0);
     residual[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale[k];
     ranges.residual = std::max(ranges.residual, balance);
   }
@@ -32,18 +36,18 @@ void certify(const Packing& packing, ForceRanges& ranges) {
         const double primal = residual[vertex];
         const double dual = ranges.dual_residual(i, column);
         const double value = ranges.states(vertex, 2 * i + (column >= kMinT ? 1 : 0));
-        // First-order bound of what the residuals can hide; rounding of the bound itself is not accounted
-        // for.
-        const double slack = (primal + dual) * scale[vertex] * unit *
-                             static_cast<double>(std::max<Eigen::Index>(1, ranges.outcome.rows()));
         ranges.value(i, column) = value;
-        ranges.lower(i, column) = value - slack;
-        ranges.upper(i, column) = value + slack;
+        if (ranges.doubtful) {  // the enclosure rests on decisions that are in doubt
+          ranges.lower(i, column) = -kInfinity;
+          ranges.upper(i, column) = kInfinity;
+        }
         ranges.primal_residual(i, column) = primal;
         if (primal > tolerance::kPrimalResidual || dual > tolerance::kDualResidual)
           outcome = Outcome::kImprecise;
       } else if (std::isinf(ranges.value(i, column))) {
         ranges.lower(i, column) = ranges.upper(i, column) = ranges.value(i, column);
+        if (outcome == Outcome::kImprecise || ranges.doubtful)  // it may be finite after all
+          (ranges.value(i, column) > 0 ? ranges.lower : ranges.upper)(i, column) *= -1;
       }
       const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
       if (has_value && ranges.doubtful) outcome = Outcome::kImprecise;

@@ -64,6 +64,7 @@ struct Record {
   bool failed = false;
   double dual_residual = 0;
   std::vector<int> held;
+  Basis proof;
 };
 
 class Search {
@@ -249,7 +250,8 @@ class Search {
       if (!step.visited) continue;
       const int id = static_cast<int>(vertices_.size());
       bool kept = false;
-      for (Finding& finding : step.findings) kept = take(finding, step.visited->weight, id) || kept;
+      for (Finding& finding : step.findings)
+        kept = take(finding, step.visited->weight, id, step.visited->vertex.basis) || kept;
       if (step.settles_state) {
         Record& own = record(step.objective);
         own.vertex = id;
@@ -265,7 +267,7 @@ class Search {
     }
   }
 
-  bool take(Finding& finding, double weight, int id) {
+  bool take(Finding& finding, double weight, int id, const Basis& basis) {
     Record& known = record(finding.objective);
     if (known.canonical) return false;
     const bool tie = ties(finding.value, known.best);
@@ -278,7 +280,10 @@ class Search {
     known.weight = weight;
     known.vertex = id;
     if (!finding.optimal) return true;
-    if (!known.optimal) known.held = std::move(finding.held);
+    if (!known.optimal) {
+      known.held = std::move(finding.held);
+      known.proof = basis;
+    }
     known.optimal = true;
     known.dual_residual = finding.dual_residual;
     known.canonical = finding.canonical || !options_.canonical_states;
@@ -452,6 +457,7 @@ class Search {
           extremum.value += coefficient * result.vertices[static_cast<std::size_t>(id)].x[index];
         }
         extremum.dual_residual = r.dual_residual;
+        extremum.proof = r.proof;
         extremum.unique = r.unique;
       } else if (r.wanted) {
         extremum.status = r.unbounded ? Extremum::Status::kUnbounded : Extremum::Status::kFailed;

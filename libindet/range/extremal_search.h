@@ -38,7 +38,9 @@ struct Extremum {
   double value = 0;
   int vertex = -1;           ///< index into SearchResult::vertices
   double dual_residual = 0;  ///< largest wrong-signed reduced cost of the proof
-  bool unique = false;       ///< the vertex is the only point that attains the value
+  Basis proof;  ///< the basis whose reduced costs prove the value; at a degenerate vertex that of `vertex`
+                ///< need not
+  bool unique = false;  ///< the vertex is the only point that attains the value
 };
 
 struct SearchResult {

@@ -61,6 +61,9 @@ struct ForceRanges {
   // One row a contact, columns R_min, R_max, T_min, T_max.
   Table4<double> value;         ///< ±inf where unbounded, NaN where not found.
   Table4<double> lower, upper;  ///< Enclosure of the value.
+  /// How far the value moves, at most and to first order, when every normal turns by a small angle, over that
+  /// angle (force per radian); NaN where there is no extremal state.
+  Table4<double> sensitivity;
   Table4<Outcome> outcome;
   Table4<double> primal_residual, dual_residual;
   Table4<std::uint8_t> unique;  ///< 1: the extremal state is the only one that attains the value.

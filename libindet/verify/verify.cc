@@ -95,7 +95,8 @@ class Verifier {
     double imbalance = 0;
     for (Eigen::Index k = 0; k < ranges_.states.rows(); ++k) {
       const Eigen::VectorXd forces = state(k);
-      const double scale = std::max(1.0, forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0);
+      const double scale = std::max(packing_.internal_force_unit() / ranges_.force_unit,
+                                    forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0);
       residuals_.push_back(oracle_.imbalance(forces));
       imbalance = std::max(imbalance, residuals_.back());
       const double violation = oracle_.violation(forces);

@@ -130,6 +130,7 @@ TEST(RangesFile, EveryFieldComesBack) {
   EXPECT_TRUE(same(read.outcome, written.outcome));
   EXPECT_TRUE(same(read.primal_residual, written.primal_residual));
   EXPECT_TRUE(same(read.dual_residual, written.dual_residual));
+  EXPECT_TRUE(same(read.sensitivity, written.sensitivity));
   EXPECT_TRUE(same(read.unique, written.unique));
   EXPECT_TRUE(same(read.vertex, written.vertex));
   EXPECT_TRUE(same(read.delta_R, written.delta_R));

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
 #include "indet/base/random.h"
+#include "indet/lp/glpk_problem.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
 #include "support/oracle.h"
@@ -140,6 +142,26 @@ TEST_P(Formulations, TellInfeasibleSets) {
 INSTANTIATE_TEST_SUITE_P(Lp, Formulations,
                          testing::Values(Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge),
                          [](const auto& tested) { return to_string(tested.param); });
+
+TEST(GlpkProblem, AFailedAssertionIsAnExceptionAndTheThreadGoesOn) {
+  const auto make = [] { return std::make_unique<GlpkProblem>(1, 1, true); };
+  const auto bystander = make();
+  const auto broken = make();
+  const GlpkProblem::Entry outside[] = {{7, 0, 1.0}};  // GLPK checks indices, and would end the process
+  EXPECT_THROW(broken->load(outside), GlpkAborted);
+  EXPECT_FALSE(broken->is_alive());
+  EXPECT_FALSE(bystander->is_alive()) << "its memory belonged to the environment that was freed";
+
+  const auto next = make();  // max x with −x ≥ −3, x ≥ 0
+  const GlpkProblem::Entry inside[] = {{0, 0, -1.0}};
+  next->load(inside);
+  next->bound_row(0, GlpkProblem::Bound::kLower, -3);
+  next->bound_column(0, GlpkProblem::Bound::kLower, 0);
+  next->set_cost(0, 1);
+  next->advanced_basis();
+  EXPECT_EQ(next->solve({}), GlpkProblem::Result::kOptimal);
+  EXPECT_TRUE(next->is_column_basic(0)) << "x = 3 lies between its bounds";
+}
 
 }  // namespace
 }  // namespace indet

@@ -15,8 +15,8 @@ import unittest
 LIBRARY, COMMANDS = (pathlib.Path(sys.argv.pop()) for _ in range(2))
 
 # From first to last; a stage may see only what stands before it.
-ORDER = ["base", "packing", "contact", "nullspace", "lp", "polytope", "range", "verify", "io", "report"]
-HEADERS = {"base": "error.h", "packing": "packing.h", "contact": "contact_matrix.h", "nullspace": "null_space.h",
+ORDER = ["base", "packing", "exact", "contact", "nullspace", "lp", "polytope", "range", "verify", "io", "report"]
+HEADERS = {"base": "error.h", "packing": "packing.h", "exact": "contact_problem.h", "contact": "contact_matrix.h", "nullspace": "null_space.h",
            "lp": "lp_solver.h", "polytope": "force_polytope.h", "range": "analyze.h", "verify": "verify.h",
            "io": "packing_file.h", "report": "packing_picture.h", "sim": "world.h"}
 

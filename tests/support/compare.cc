@@ -79,6 +79,7 @@ AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
                                         same_bits("outcome", a.outcome, b.outcome),
                                         same_bits("primal_residual", a.primal_residual, b.primal_residual),
                                         same_bits("dual_residual", a.dual_residual, b.dual_residual),
+                                        same_bits("sensitivity", a.sensitivity, b.sensitivity),
                                         same_bits("unique", a.unique, b.unique),
                                         same_bits("vertex", a.vertex, b.vertex),
                                         same_bits("delta_R", a.delta_R, b.delta_R),
@@ -160,7 +161,7 @@ ForceRanges rescaled(const ForceRanges& ranges, double force) {
   ForceRanges result = ranges;
   result.force_unit *= force;
   result.residual = ranges.residual;
-  for (auto* table : {&result.value, &result.lower, &result.upper}) *table *= force;
+  for (auto* table : {&result.value, &result.lower, &result.upper, &result.sensitivity}) *table *= force;
   result.states *= force;
   result.norm *= force;
   return result;

@@ -1,0 +1,219 @@
+#include "indet/exact/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indet::exact {
+namespace {
+
+/// Entries of several columns, by row: columns of the transposed matrix.
+std::vector<IntegerColumn> transposed(const std::vector<const IntegerColumn*>& columns, int rows) {
+  std::vector<IntegerColumn> result(static_cast<std::size_t>(rows));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    for (std::size_t k = 0; k < columns[j]->row.size(); ++k) {
+      IntegerColumn& row = result[static_cast<std::size_t>(columns[j]->row[k])];
+      row.row.push_back(static_cast<int>(j));
+      row.value.push_back(columns[j]->value[k]);
+    }
+  }
+  return result;
+}
+
+IntegerColumn load_column(const ContactProblem& problem) {
+  IntegerColumn column;
+  for (int row = 0; row < problem.rows(); ++row) {
+    if (problem.load()[static_cast<std::size_t>(row)] == 0) continue;
+    column.row.push_back(row);
+    column.value.push_back(problem.load()[static_cast<std::size_t>(row)]);
+  }
+  return column;
+}
+
+mpz_class dot(const IntegerColumn& column, const std::vector<mpz_class>& vector) {
+  mpz_class sum = 0;
+  for (std::size_t k = 0; k < column.row.size(); ++k)
+    sum += column.value[k] * vector[static_cast<std::size_t>(column.row[k])];
+  return sum;
+}
+
+std::vector<int> numbers_of(const std::vector<int>& chosen, int size) {
+  std::vector<int> number(static_cast<std::size_t>(size), -1);
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    number[static_cast<std::size_t>(chosen[k])] = static_cast<int>(k);
+  return number;
+}
+
+/// x with A x = 0 exactly, for the sparse A with these columns, that agrees with the guess in as many entries
+/// as A leaves free. Nothing if A leaves none, or if the rank modulo a prime was an accident (the result is
+/// multiplied back).
+std::optional<RationalVector> kernel_vector(const std::vector<const IntegerColumn*>& columns, int rows,
+                                            const std::vector<mpq_class>& guess) {
+  const PrimeField field(large_prime(0));
+  const ModularLu lu(field, rows, columns);
+  const std::vector<int> independent = lu.pivot_columns();
+  const std::vector<int> row_number = numbers_of(lu.pivot_rows(), rows);
+  const std::vector<int> number = numbers_of(independent, static_cast<int>(columns.size()));
+  if (independent.size() == columns.size()) return {};
+
+  mpz_class scale = 1;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (number[j] < 0) scale = lcm(scale, guess[j].get_den());
+  }
+  std::vector<mpz_class> free(columns.size(), 0);
+  std::vector<mpz_class> right(independent.size(), 0);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (number[j] >= 0) continue;
+    free[j] = guess[j].get_num() * (scale / guess[j].get_den());
+    for (std::size_t k = 0; k < columns[j]->row.size(); ++k) {
+      const int row = row_number[static_cast<std::size_t>(columns[j]->row[k])];
+      if (row >= 0) right[static_cast<std::size_t>(row)] -= columns[j]->value[k] * free[j];
+    }
+  }
+  std::vector<IntegerColumn> square;
+  for (const int j : independent) {
+    const IntegerColumn& column = *columns[static_cast<std::size_t>(j)];
+    IntegerColumn kept;
+    for (std::size_t k = 0; k < column.row.size(); ++k) {
+      const int row = row_number[static_cast<std::size_t>(column.row[k])];
+      if (row < 0) continue;
+      kept.row.push_back(row);
+      kept.value.push_back(column.value[k]);
+    }
+    square.push_back(std::move(kept));
+  }
+  std::vector<const IntegerColumn*> pointers;
+  for (const IntegerColumn& column : square) pointers.push_back(&column);
+  const auto solver = RationalSolver::create(std::move(pointers));
+  if (!solver) return {};
+  const RationalVector solved = solver->solve(right);
+  RationalVector x;
+  x.denominator = solved.denominator * scale;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    x.numerator.push_back(number[j] >= 0 ? solved.numerator[static_cast<std::size_t>(number[j])]
+                                         : mpz_class(free[j] * solved.denominator));
+  }
+  std::vector<mpz_class> residual(static_cast<std::size_t>(rows), 0);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    for (std::size_t k = 0; k < columns[j]->row.size(); ++k)
+      residual[static_cast<std::size_t>(columns[j]->row[k])] += columns[j]->value[k] * x.numerator[j];
+  }
+  const bool holds = std::all_of(residual.begin(), residual.end(), [](const mpz_class& r) { return r == 0; });
+  return holds ? std::optional(std::move(x)) : std::nullopt;
+}
+
+std::vector<bool> open_after(const ContactProblem& problem, std::span<const Closing> closings) {
+  std::vector<bool> open(static_cast<std::size_t>(problem.edges()), false);
+  for (int e = 0; e < problem.edges(); ++e) open[static_cast<std::size_t>(e)] = problem.has_edge(e);
+  for (const Closing& closing : closings) {
+    for (const int e : closing.edges) open[static_cast<std::size_t>(e)] = false;
+  }
+  return open;
+}
+
+}  // namespace
+
+std::optional<Motion> Motion::repair(const ContactProblem& problem, std::span<const int> still,
+                                     bool against_load, std::span<const double> guess) {
+  const IntegerColumn load = load_column(problem);
+  std::vector<const IntegerColumn*> conditions;
+  for (const int e : still) conditions.push_back(&problem.edge(e));
+  if (!against_load) conditions.push_back(&load);
+  const std::vector<IntegerColumn> by_row = transposed(conditions, problem.rows());
+  std::vector<const IntegerColumn*> columns;
+  for (const IntegerColumn& column : by_row) columns.push_back(&column);
+  std::vector<mpq_class> exact_guess;
+  for (const double value : guess) exact_guess.emplace_back(value);
+  auto velocity = kernel_vector(columns, static_cast<int>(conditions.size()), exact_guess);
+  if (!velocity) return {};
+  return Motion(problem, std::move(*velocity));
+}
+
+int Motion::edge_power(int edge) const { return sgn(dot(problem_->edge(edge), velocity_.numerator)); }
+
+int Motion::load_power() const { return -sgn(dot(load_column(*problem_), velocity_.numerator)); }
+
+bool proves_emptiness(const ContactProblem& problem, std::span<const double> guess,
+                      std::span<const Closing> closings, double zero) {
+  const std::vector<bool> open = open_after(problem, closings);
+  std::vector<int> still;
+  for (int e = 0; e < problem.edges(); ++e) {
+    if (!open[static_cast<std::size_t>(e)]) continue;
+    const IntegerColumn& column = problem.edge(e);
+    double power = 0;
+    for (std::size_t k = 0; k < column.row.size(); ++k)
+      power += std::ldexp(column.value[k].get_d(), static_cast<int>(-column.shift)) *
+               guess[static_cast<std::size_t>(column.row[k])];
+    const double mu = problem.mu(e / 2).get_d();
+    if (std::abs(power) <= zero * std::max(1.0, mu)) still.push_back(e);
+  }
+  const auto motion = Motion::repair(problem, still, true, guess);
+  if (!motion || motion->load_power() <= 0) return false;
+  for (int e = 0; e < problem.edges(); ++e) {
+    if (open[static_cast<std::size_t>(e)] && motion->edge_power(e) < 0) return false;
+  }
+  return true;
+}
+
+bool proves_ray(const ContactProblem& problem, std::span<const double> guess, double zero) {
+  std::vector<const IntegerColumn*> columns;
+  std::vector<mpq_class> strengths;
+  for (int e = 0; e < problem.edges(); ++e) {
+    const double strength = guess[static_cast<std::size_t>(e)];
+    if (!problem.has_edge(e) || strength <= zero) continue;
+    columns.push_back(&problem.edge(e));
+    strengths.push_back(scaled(mpq_class(strength), -problem.edge(e).shift));
+  }
+  const auto ray = kernel_vector(columns, problem.rows(), strengths);
+  return ray && std::all_of(ray->numerator.begin(), ray->numerator.end(),
+                            [](const mpz_class& value) { return value > 0; });
+}
+
+bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
+                      std::optional<int> final_rank) {
+  std::vector<bool> open = open_after(problem, {});
+  const auto open_edges = [&] {
+    std::vector<int> edges;
+    for (int e = 0; e < problem.edges(); ++e) {
+      if (open[static_cast<std::size_t>(e)]) edges.push_back(e);
+    }
+    return edges;
+  };
+  for (const Closing& closing : closings) {
+    for (const int e : closing.edges) open[static_cast<std::size_t>(e)] = false;
+    const auto motion = Motion::repair(problem, open_edges(), false, closing.motion);
+    if (!motion) return false;
+    const bool opens = std::all_of(closing.edges.begin(), closing.edges.end(),
+                                   [&](int e) { return motion->edge_power(e) > 0; });
+    if (!opens) return false;
+  }
+  if (!final_rank) return true;
+  // Rank: `final_rank` rows are independent modulo a prime, hence independent; each of the others needs a
+  // motion, with this row and independent ones alone, under which every open edge rests and the load does no
+  // work.
+  std::vector<const IntegerColumn*> columns;
+  for (const int e : open_edges()) columns.push_back(&problem.edge(e));
+  const PrimeField field(large_prime(0));
+  const ModularLu lu(field, problem.rows(), columns);
+  if (lu.rank() != *final_rank) return false;
+  const std::vector<int> number = numbers_of(lu.pivot_rows(), problem.rows());
+  if (lu.rank() == problem.rows()) return true;
+  const IntegerColumn load = load_column(problem);
+  std::vector<const IntegerColumn*> conditions = columns;
+  conditions.push_back(&load);
+  const std::vector<IntegerColumn> by_row = transposed(conditions, problem.rows());
+  for (int row = 0; row < problem.rows(); ++row) {
+    if (number[static_cast<std::size_t>(row)] >= 0) continue;
+    std::vector<const IntegerColumn*> chosen;
+    std::vector<mpq_class> one;
+    for (int other = 0; other < problem.rows(); ++other) {
+      if (other != row && number[static_cast<std::size_t>(other)] < 0) continue;
+      chosen.push_back(&by_row[static_cast<std::size_t>(other)]);
+      one.emplace_back(1);
+    }
+    // Independent rows alone have a trivial kernel, so any kernel vector has a part in this row.
+    if (!kernel_vector(chosen, static_cast<int>(conditions.size()), one)) return false;
+  }
+  return true;
+}
+
+}  // namespace indet::exact

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "indet/exact/contact_problem.h"
+#include "indet/exact/rational_solver.h"
+
+namespace indet::exact {
+
+/// A virtual motion, one velocity a row (x, y, rω of each disk), over the rational numbers.
+class Motion {
+ public:
+  /// The motion with no power at any of `still` edges, and none of the load if `against_load` is not set,
+  /// whose other velocities are those of `guess` (one a row): the degrees of freedom that the conditions
+  /// leave are taken from the guess, the rest follows exactly. So a motion that satisfies the conditions up
+  /// to rounding becomes one that satisfies them. Nothing if the conditions leave no motion but rest.
+  static std::optional<Motion> repair(const ContactProblem& problem, std::span<const int> still,
+                                      bool against_load, std::span<const double> guess);
+
+  /// Sign of the power of a force along this edge.
+  int edge_power(int edge) const;
+  /// Sign of the power of the load.
+  int load_power() const;
+
+ private:
+  Motion(const ContactProblem& problem, RationalVector velocity)
+      : problem_(&problem), velocity_(std::move(velocity)) {}
+  const ContactProblem* problem_;
+  RationalVector velocity_;
+};
+
+/// A step in which edges were closed, that is found to be 0 in every state, with the motion that proves it.
+struct Closing {
+  std::vector<int> edges;      ///< closed in this step
+  std::vector<double> motion;  ///< one a row
+};
+
+/// True if the motion nearest to the guess that opens or rests at every edge and lets the load do work
+/// exists, so that the packing cannot stand (Farkas). Edges whose power in the guess is below `zero` are held
+/// at exactly 0.
+/// Edges of `closings` are known to carry nothing and may resist.
+bool proves_emptiness(const ContactProblem& problem, std::span<const double> guess,
+                      std::span<const Closing> closings, double zero);
+
+/// True if strengths near `guess` (one an edge) that are exactly 0 where the guess is below `zero`, and
+/// positive elsewhere, balance themselves: a direction in ker c ∩ K. It then grows each component whose sign
+/// is clear in the guess.
+bool proves_ray(const ContactProblem& problem, std::span<const double> guess, double zero);
+
+/// True if each step's edges are 0 in every state (a motion exists under which they open, the load does no
+/// work, and every edge that stays open rests), and the equations of the edges that stay open in the end have
+/// exactly the given rank and do not contradict each other (not asked if no rank is given).
+bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
+                      std::optional<int> final_rank);
+
+}  // namespace indet::exact

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "indet/exact/contact_problem.h"
+#include "indet/exact/rational_solver.h"
+
+namespace indet::exact {
+
+/// What is to be maximised: sign · R_α (component 2α) or sign · T_α (component 2α + 1).
+struct Goal {
+  int component = 0;
+  int sign = 1;
+};
+
+/// A basis of the exact problem: rank() independent edges; all others have strength 0. The forces x_B = B⁻¹
+/// b, the multipliers y = B⁻ᵀ c_B and reduced costs c_e − y·A_e, as rational numbers.
+class ContactBasis {
+ public:
+  /// Nothing if the edges are not independent, or not rank() many. `problem` must outlive the basis.
+  static std::unique_ptr<ContactBasis> create(const ContactProblem& problem, std::vector<int> edges);
+
+  const std::vector<int>& edges() const { return edges_; }  ///< basic ones, ascending
+  bool is_basic(int edge) const { return basic_[static_cast<std::size_t>(edge)]; }
+
+  /// Whether x_B satisfies all equations, those that are left out as dependent included.
+  bool is_balanced() const { return balanced_; }
+  /// If not: whether this contradicts every solution, because an equation that x_B violates is proven to be a
+  /// combination of the independent ones, with another right-hand side.
+  bool proves_contradiction() const;
+  /// The basic edge of smallest number with a negative strength, or −1.
+  int first_negative() const;
+  /// R_α (component 2α) or T_α (2α + 1), in the scene's own units.
+  mpq_class force(int component) const;
+
+  /// y, one an independent row, up to a positive factor that is returned beside it.
+  struct Multipliers {
+    RationalVector y;
+    mpz_class scale = 1;  ///< true multipliers are y / scale
+  };
+  Multipliers multipliers(const Goal& goal) const;
+  /// The edge of smallest number (not below `first`) with a positive reduced cost, or −1.
+  int first_improving(const Goal& goal, const Multipliers& multipliers) const;
+
+  /// Entering edge e: the basic edge of smallest number whose strength falls as x_e grows, or −1: then
+  /// x_e = 1, x_B = −B⁻¹ A_e is a recession ray.
+  int first_blocking(int entering) const;
+  /// Leaving edge e of negative strength: the nonbasic edge of smallest number that can raise it, or −1: then
+  /// the problem has no solution (Farkas).
+  int first_raising(int leaving) const;
+
+ private:
+  explicit ContactBasis(const ContactProblem& problem) : problem_(problem) {}
+  struct Variable {
+    int contact = 0;
+    int kind = 0;  ///< 0: R of a contact with both edges, 1: its T; 2: an edge
+    int edge = -1;
+  };
+  mpq_class cost(const Variable& variable, const Goal& goal) const;
+  mpq_class edge_cost(int edge, const Goal& goal) const;
+  /// Value of variable v of a solution of B' x' = b', with the shift undone.
+  mpq_class value(const RationalVector& x, std::size_t v) const;
+  /// Sign of the strength of a basic edge in a solution of B' x' = b'.
+  int sign_of(const RationalVector& x, int edge) const;
+  /// y · A_e · 2^shift of the column, times the denominator of y.
+  mpz_class product(const RationalVector& y, int edge) const;
+  bool satisfies_all_rows() const;
+
+  const ContactProblem& problem_;
+  std::vector<int> edges_;
+  std::vector<bool> basic_;
+  std::vector<Variable> variables_;
+  std::vector<int> first_variable_;  ///< of each contact, −1 if it has none
+  std::vector<const IntegerColumn*> full_;
+  std::vector<IntegerColumn> columns_;  ///< on the independent rows
+  std::unique_ptr<RationalSolver> solver_;
+  RationalVector x_;
+  bool balanced_ = false;
+};
+
+}  // namespace indet::exact

@@ -1,0 +1,172 @@
+#include "indet/exact/contact_problem.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace indet::exact {
+namespace {
+
+using Entries = std::vector<std::pair<int, mpq_class>>;
+
+/// Multiplies a column of dyadic numbers by the smallest power of two that makes it integer.
+IntegerColumn integer_column(Entries entries) {
+  std::erase_if(entries, [](const auto& entry) { return entry.second == 0; });
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  IntegerColumn column;
+  bool first = true;
+  for (const auto& [row, value] : entries) {
+    const auto below = static_cast<long>(mpz_sizeinbase(value.get_den_mpz_t(), 2)) - 1;
+    const auto zeros = static_cast<long>(mpz_scan1(value.get_num_mpz_t(), 0));
+    const long needed = below > 0 ? below : -zeros;
+    column.shift = first ? needed : std::max(column.shift, needed);
+    first = false;
+  }
+  for (const auto& [row, value] : entries) {
+    column.row.push_back(row);
+    column.value.push_back(scaled(value, column.shift).get_num());
+  }
+  return column;
+}
+
+/// Number of each equation of each disk, −1 where it would read 0 = 0.
+class RowNumbers {
+ public:
+  explicit RowNumbers(const Packing& packing) : numbers_(packing.disks.size(), {-1, -1, -1}) {
+    for (const indet::Contact& contact : packing.contacts) {
+      touch(contact.a, contact.mu > 0);
+      if (!contact.b.is_wall()) touch(contact.b.disk_id(), contact.mu > 0);
+    }
+  }
+  int operator()(DiskId disk, int component) const {
+    return numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
+  }
+  int& need(DiskId disk, int component) {
+    int& number = numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
+    if (number < 0) number = count_++;
+    return number;
+  }
+  int count() const { return count_; }
+  const std::vector<std::array<int, 3>>& all() const { return numbers_; }
+
+ private:
+  void touch(DiskId disk, bool turns) {
+    need(disk, 0);
+    need(disk, 1);
+    if (turns) need(disk, 2);
+  }
+  std::vector<std::array<int, 3>> numbers_;
+  int count_ = 0;
+};
+
+/// The wrench of a disk, exactly; the torque divided by the radius.
+std::array<mpq_class, 3> exact_wrench(const Packing& packing, const Disk& disk) {
+  std::array<mpq_class, 3> wrench;
+  const mpq_class mass(disk.mass);
+  wrench[0] = mass * mpq_class(packing.gravity.x()) + mpq_class(disk.load.x());
+  wrench[1] = mass * mpq_class(packing.gravity.y()) + mpq_class(disk.load.y());
+  wrench[2] = mpq_class(disk.load.z()) / mpq_class(disk.radius);
+  return wrench;
+}
+
+/// R n̂ + T t̂ on a, the opposite on b, and T on both torques.
+Entries force_entries(const RowNumbers& number, const indet::Contact& contact, const mpq_class& R,
+                      const mpq_class& T) {
+  const mpq_class nx(contact.normal.x());
+  const mpq_class ny(contact.normal.y());
+  const mpq_class fx = R * nx + T * ny;
+  const mpq_class fy = R * ny - T * nx;
+  Entries entries;
+  const auto add = [&](DiskId disk, int sign) {
+    entries.emplace_back(number(disk, 0), sign * fx);
+    entries.emplace_back(number(disk, 1), sign * fy);
+    if (T != 0) entries.emplace_back(number(disk, 2), T);
+  };
+  add(contact.a, 1);
+  if (!contact.b.is_wall()) add(contact.b.disk_id(), -1);
+  return entries;
+}
+
+}  // namespace
+
+mpq_class scaled(const mpq_class& value, long power) {
+  mpq_class result;
+  if (power >= 0) {
+    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(power));
+  } else {
+    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-power));
+  }
+  return result;
+}
+
+ContactProblem::ContactProblem(const Packing& packing) {
+  RowNumbers number(packing);
+  std::vector<std::pair<int, mpq_class>> wrench;
+  for (int i = 0; i < packing.disk_count(); ++i) {
+    const auto exact = exact_wrench(packing, packing[DiskId(i)]);
+    for (int k = 0; k < 3; ++k) {
+      const mpq_class& value = exact[static_cast<std::size_t>(k)];
+      if (value != 0) wrench.emplace_back(number.need(DiskId(i), k), value);
+    }
+  }
+  row_of_ = number.all();
+  for (const auto& [row, value] : wrench) load_scale_ = lcm(load_scale_, value.get_den());
+  load_.assign(static_cast<std::size_t>(number.count()), 0);
+  for (const auto& [row, value] : wrench)
+    load_[static_cast<std::size_t>(row)] = -value.get_num() * (load_scale_ / value.get_den());
+
+  for (const indet::Contact& contact : packing.contacts) {
+    Contact exact;
+    exact.mu = mpq_class(contact.mu);
+    exact.normal = integer_column(force_entries(number, contact, 1, 0));
+    if (contact.mu > 0) {
+      exact.tangential = integer_column(force_entries(number, contact, 0, 1));
+      exact.plus = integer_column(force_entries(number, contact, 1, exact.mu));
+      exact.minus = integer_column(force_entries(number, contact, 1, -exact.mu));
+    }
+    contacts_.push_back(std::move(exact));
+  }
+  find_independent_rows();
+}
+
+void ContactProblem::find_independent_rows() {
+  std::vector<const IntegerColumn*> columns;
+  for (const Contact& contact : contacts_) {
+    columns.push_back(&contact.normal);
+    if (contact.mu > 0) columns.push_back(&contact.tangential);
+  }
+  const PrimeField field(large_prime(0));
+  independent_ = ModularLu(field, rows(), columns).pivot_rows();
+  row_number_.assign(static_cast<std::size_t>(rows()), -1);
+  for (std::size_t k = 0; k < independent_.size(); ++k)
+    row_number_[static_cast<std::size_t>(independent_[k])] = static_cast<int>(k);
+}
+
+bool ContactProblem::has_edge(int edge) const { return edge % 2 == 0 || mu(edge / 2) > 0; }
+
+const IntegerColumn& ContactProblem::edge(int edge) const {
+  const Contact& contact = contacts_[static_cast<std::size_t>(edge / 2)];
+  if (contact.mu == 0) return contact.normal;
+  return edge % 2 == 0 ? contact.plus : contact.minus;
+}
+
+std::vector<int> ContactProblem::choose_basis(std::span<const double> preference) const {
+  std::vector<int> order;
+  for (int e = 0; e < edges(); ++e) {
+    if (has_edge(e)) order.push_back(e);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return preference[static_cast<std::size_t>(a)] > preference[static_cast<std::size_t>(b)];
+  });
+  std::vector<const IntegerColumn*> columns;
+  for (const int e : order) columns.push_back(&edge(e));
+  const PrimeField field(large_prime(0));
+  std::vector<int> basis;
+  for (const int position : independent_prefix(field, row_number_, rank(), columns, rank()))
+    basis.push_back(order[static_cast<std::size_t>(position)]);
+  std::sort(basis.begin(), basis.end());
+  return basis;
+}
+
+}  // namespace indet::exact

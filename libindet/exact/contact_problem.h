@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "indet/exact/modular_lu.h"
+#include "indet/packing/packing.h"
+
+namespace indet::exact {
+
+/// The equilibrium problem of a packing over the rational numbers, with the doubles of the packing taken as
+/// they are (docs/decisions/exact-problem.md):
+///
+///   for each disk:  Σ χ (R n̂ + T t̂) + m g + load = 0,   Σ T + load_z / r = 0,   t̂ = (n_y, −n_x), χ = ±1
+///   for each contact:  R ≥ 0,  |T| ≤ μR
+///
+/// n̂ is what is stored, also where its length is not exactly 1; products, sums and quotients are exact.
+/// Multiplying a row or an unknown by a number does not change this problem, so none of the scales of the
+/// analysis enters.
+///
+/// Unknowns are strengths of cone edges, R = x₊ + x₋, T = μ (x₊ − x₋), x ≥ 0. Edge 2α is x₊ of contact α (R
+/// itself where μ = 0), edge 2α + 1 is x₋ (absent where μ = 0): the numbers of the half-planes in
+/// /extremal/active, each of which is "this edge has strength 0".
+class ContactProblem {
+ public:
+  /// Precondition: find_defect(packing) is empty.
+  explicit ContactProblem(const Packing& packing);
+
+  int rows() const { return static_cast<int>(load_.size()); }
+  int contacts() const { return static_cast<int>(contacts_.size()); }
+  int edges() const { return 2 * contacts(); }
+  bool has_edge(int edge) const;
+  /// The row of an equation of a disk (0: force x, 1: force y, 2: torque), −1 if it reads 0 = 0.
+  int row(DiskId disk, int component) const {
+    return row_of_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
+  }
+
+  /// The rank of the equations modulo a prime near 2^62. It is a lower bound of the exact rank, and equals it
+  /// but for an accident of probability below 1e-12.
+  int rank() const { return static_cast<int>(independent_.size()); }
+  /// rank() rows that are independent (this is certain), ascending; and the place of each row among them, −1
+  /// if none.
+  const std::vector<int>& independent_rows() const { return independent_; }
+  const std::vector<int>& row_number() const { return row_number_; }
+
+  const mpq_class& mu(int contact) const { return contacts_[static_cast<std::size_t>(contact)].mu; }
+  /// Columns of R and T of one contact, and of an edge.
+  const IntegerColumn& normal(int contact) const {
+    return contacts_[static_cast<std::size_t>(contact)].normal;
+  }
+  const IntegerColumn& tangential(int contact) const {
+    return contacts_[static_cast<std::size_t>(contact)].tangential;
+  }
+  const IntegerColumn& edge(int edge) const;
+
+  /// −w times load_scale(): the right-hand side, integers, one a row.
+  const std::vector<mpz_class>& load() const { return load_; }
+  const mpz_class& load_scale() const { return load_scale_; }
+
+  /// At most rank() edges whose columns are independent, taken greedily from the highest preference down.
+  /// Ascending. Precondition: one preference an edge.
+  std::vector<int> choose_basis(std::span<const double> preference) const;
+
+ private:
+  struct Contact {
+    mpq_class mu;
+    IntegerColumn normal, tangential, plus, minus;
+  };
+  void find_independent_rows();
+
+  std::vector<std::array<int, 3>> row_of_;
+  std::vector<Contact> contacts_;
+  std::vector<mpz_class> load_;
+  mpz_class load_scale_ = 1;
+  std::vector<int> independent_;
+  std::vector<int> row_number_;
+};
+
+/// value · 2^power.
+mpq_class scaled(const mpq_class& value, long power);
+
+}  // namespace indet::exact

@@ -1,0 +1,67 @@
+#include "indet/exact/optimum.h"
+
+#include <cmath>
+#include <limits>
+
+namespace indet::exact {
+namespace {
+
+/// Criss-cross steps; `goal` absent: any feasible basis will do.
+Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> basis,
+             const std::optional<Goal>& goal, int pivot_limit) {
+  Optimum result;
+  for (;; ++result.pivots) {
+    result.basis = basis;
+    if (!basis->is_balanced()) {
+      if (basis->proves_contradiction()) result.verdict = Verdict::kInconsistent;
+      return result;
+    }
+    const int infeasible = basis->first_negative();
+    const int improving = goal ? basis->first_improving(*goal, basis->multipliers(*goal)) : -1;
+    if (infeasible < 0 && improving < 0) {
+      result.verdict = Verdict::kOptimal;
+      if (goal) result.value = basis->force(goal->component);
+      return result;
+    }
+    const bool leave = improving < 0 || (infeasible >= 0 && infeasible < improving);
+    const int partner = leave ? basis->first_raising(infeasible) : basis->first_blocking(improving);
+    if (partner < 0) {
+      result.verdict = leave ? Verdict::kEmpty : Verdict::kUnbounded;
+      return result;
+    }
+    if (result.pivots == pivot_limit) return result;
+    const int leaving = leave ? infeasible : partner;
+    const int entering = leave ? partner : improving;
+    std::vector<int> edges = basis->edges();
+    std::erase(edges, leaving);
+    edges.push_back(entering);
+    basis = ContactBasis::create(problem, std::move(edges));
+    if (!basis) return result;  // singular modulo several primes: no claim
+  }
+}
+
+}  // namespace
+
+Optimum maximise(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start, const Goal& goal,
+                 int pivot_limit) {
+  return walk(problem, std::move(start), goal, pivot_limit);
+}
+
+Optimum find_solution(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,
+                      int pivot_limit) {
+  return walk(problem, std::move(start), {}, pivot_limit);
+}
+
+Enclosure enclose(const mpq_class& value) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double truncated = value.get_d();  // towards zero
+  if (std::isinf(truncated)) {
+    const double largest = std::numeric_limits<double>::max();
+    return value > 0 ? Enclosure{largest, kInfinity} : Enclosure{-kInfinity, -largest};
+  }
+  if (mpq_class(truncated) == value) return {truncated, truncated};
+  if (value > 0) return {truncated, std::nextafter(truncated, kInfinity)};
+  return {std::nextafter(truncated, -kInfinity), truncated};
+}
+
+}  // namespace indet::exact

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "indet/exact/contact_basis.h"
+
+namespace indet::exact {
+
+/// What exact arithmetic proves about one objective.
+enum class Verdict : std::uint8_t {
+  kOptimal,       ///< the basis is feasible and no edge improves it
+  kUnbounded,     ///< a ray of the recession cone improves the objective without limit (and a feasible basis
+                  ///< exists)
+  kEmpty,         ///< Farkas: no forces satisfy the conditions
+  kInconsistent,  ///< some equations contradict each other, whatever the forces
+  kUndecided      ///< the limit of pivots was reached
+};
+
+struct Optimum {
+  Verdict verdict = Verdict::kUndecided;
+  mpq_class value;  ///< of the component itself (not times the sign), if optimal
+  int pivots = 0;   ///< 0: the start was it
+  std::shared_ptr<const ContactBasis> basis;
+};
+
+/// Maximises goal.sign · component from a basis, by the criss-cross method with least indices (Terlaky,
+/// Optimization 16, 683 (1985)): it needs no feasible start, takes no step by rounding, and is finite. A
+/// basis that is optimal already costs no pivot. kUnbounded is reported as "dual infeasible": the ray exists;
+/// that the problem has a solution is for the caller to know, or to ask with find_solution.
+Optimum maximise(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start, const Goal& goal,
+                 int pivot_limit);
+
+/// A feasible basis (kOptimal), or the proof that there is none (kEmpty, kInconsistent).
+Optimum find_solution(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,
+                      int pivot_limit);
+
+/// The two neighbouring doubles that enclose a rational number; equal if it is one.
+struct Enclosure {
+  double lower = 0;
+  double upper = 0;
+};
+Enclosure enclose(const mpq_class& value);
+
+}  // namespace indet::exact

@@ -1,0 +1,488 @@
+#include "indet/range/enclosure.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "indet/base/tolerances.h"
+#include "indet/nullspace/sparse_qr.h"
+
+namespace indet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kU = 0x1p-53;      // unit roundoff
+constexpr double kTiny = 0x1p-600;  // above anything that underflow can lose
+/// Bounds are sums of few positive terms; this covers their own rounding.
+constexpr double kWiden = 1 + 0x1p-40;
+
+/// x·y with an error below `error` (Dot2).
+struct Dot {
+  double value = 0;
+  double error = 0;
+};
+Dot accurate_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  double sum = 0;
+  double correction = 0;
+  double magnitude = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double product = x[i] * y[i];
+    const double low = std::fma(x[i], y[i], -product);
+    const double next = sum + product;
+    const double part = next - sum;
+    correction += ((sum - (next - part)) + (product - part)) + low;
+    sum = next;
+    magnitude += std::abs(product);
+  }
+  const double n = static_cast<double>(x.size() + 1) * kU;
+  Dot dot;
+  dot.value = sum + correction;
+  dot.error = kWiden * (kU * std::abs(dot.value) + 4 * n * n * magnitude) + kTiny;
+  return dot;
+}
+
+/// What is known of a stored state: the exact solution nearest to it is within `shift` of it, entry by entry.
+struct StateBound {
+  Eigen::VectorXd u;
+  double shift = kInfinity;
+  double share = 1;  ///< θ: how far it must be moved towards the centre
+};
+
+class Encloser {
+ public:
+  Encloser(const Packing& packing, const ForcePolytope& polytope, ForceRanges& ranges)
+      : packing_(packing), polytope_(polytope), contacts_(polytope.contacts), ranges_(ranges) {
+    first_.assign(static_cast<std::size_t>(packing.contact_count()), -1);
+    for (int k = contacts_.unknowns() - 1; k >= 0; --k)
+      first_[static_cast<std::size_t>(contacts_.edges[static_cast<std::size_t>(k)].contact.value())] = k;
+    find_right_inverse();
+    bound_states();
+  }
+
+  bool run(std::span<const OptimalBasis> optima) {
+    sort_bases(optima);
+    bound_strengths();
+    const Eigen::Index count = packing_.contact_count();
+    ranges_.sensitivity.setConstant(count, 4, ForceRanges::kNaN);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (int column = 0; column < 4; ++column) {
+        if (ranges_.vertex(i, column) >= 0) enclose(i, column);
+      }
+    }
+    const bool limited = polytope_.status != PolytopeStatus::kBounded || std::isfinite(total_);
+    return inside_ && limited;
+  }
+
+ private:
+  /// A linear functional: its coefficients on the unknowns u and on the edges x of one contact.
+  struct Functional {
+    std::vector<std::pair<int, double>> on_unknowns, on_edges;
+  };
+
+  bool is_stick(int unknown) const {
+    const int contact = contacts_.edges[static_cast<std::size_t>(unknown)].contact.value();
+    return contacts_.modes[static_cast<std::size_t>(contact)] == ContactMode::kStick;
+  }
+
+  Functional functional(Eigen::Index contact, bool tangential, double sign) const {
+    Functional f;
+    const int first = first_[static_cast<std::size_t>(contact)];
+    if (first < 0) return f;
+    const int edges = is_stick(first) ? 2 : 1;
+    for (int k = first; k < first + edges; ++k) {
+      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+      const double coefficient = sign * (tangential ? edge.T : edge.R);
+      f.on_edges.emplace_back(k, coefficient);
+      if (edges == 1) f.on_unknowns.emplace_back(k, coefficient);
+    }
+    if (edges == 2) f.on_unknowns.emplace_back(first + (tangential ? 1 : 0), sign);
+    return f;
+  }
+
+  void find_right_inverse() {
+    const double tolerance = tolerance::kRankReject;
+    const int unknowns = contacts_.unknowns();
+    rows_.clear();
+    if (contacts_.equations() > 0 && unknowns > 0)
+      rows_ = SparseQr(contacts_.matrix.transpose(), tolerance).independent_columns();
+    const auto rank = static_cast<Eigen::Index>(rows_.size());
+    std::vector<int> number(static_cast<std::size_t>(contacts_.equations()), -1);
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      number[static_cast<std::size_t>(rows_[k])] = static_cast<int>(k);
+    const auto restrict_rows = [&](const Eigen::SparseMatrix<double>& matrix) {
+      std::vector<Eigen::Triplet<double>> entries;
+      for (int j = 0; j < matrix.outerSize(); ++j) {
+        for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, j); it; ++it) {
+          const int row = number[static_cast<std::size_t>(it.row())];
+          if (row >= 0) entries.emplace_back(row, j, it.value());
+        }
+      }
+      Eigen::SparseMatrix<double> kept(rank, unknowns);
+      kept.setFromTriplets(entries.begin(), entries.end());
+      return kept;
+    };
+    matrix_ = restrict_rows(contacts_.matrix);
+    edge_matrix_ = restrict_rows(contacts_.edge_matrix);
+    wrench_.resize(rank);
+    wrench_error_.resize(rank);
+    for (Eigen::Index k = 0; k < rank; ++k) {
+      const int row = rows_[static_cast<std::size_t>(k)];
+      const EquilibriumRow& equation = contacts_.rows[static_cast<std::size_t>(row)];
+      const Disk& disk = packing_[equation.disk];
+      wrench_[k] = contacts_.wrench[row];
+      const double weight =
+          equation.component < 2 ? std::abs(disk.mass * packing_.gravity[equation.component]) : 0;
+      const double scale = contacts_.force_unit * (equation.component < 2 ? 1 : disk.radius);
+      wrench_error_[k] = 6 * kU * (weight + std::abs(disk.load[equation.component])) / scale + kTiny;
+    }
+    if (rank == 0) {
+      right_inverse_.resize(unknowns, 0);
+      norm_ = 0;
+      return;
+    }
+    right_inverse_ = SparseQr(matrix_.transpose(), tolerance)
+                         .solve_transposed_columns(Eigen::MatrixXd::Identity(rank, rank));
+    const Eigen::VectorXd sums = right_inverse_.cwiseAbs().rowwise().sum();
+    norm_ = kWiden * sums.maxCoeff();
+    const Eigen::MatrixXd product = matrix_ * right_inverse_;
+    const Eigen::VectorXd off = (product - Eigen::MatrixXd::Identity(rank, rank)).cwiseAbs().rowwise().sum();
+    // Rounding of the product, and of the entries of A where they are not stored doubles themselves.
+    const Eigen::VectorXd magnitude = matrix_.cwiseAbs() * sums;
+    Eigen::VectorXd entries = Eigen::VectorXd::Zero(rank);
+    for (int j = 0; j < matrix_.outerSize(); ++j) {
+      if (is_stick(j)) continue;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) entries[it.row()] += sums[j];
+    }
+    const double longest = static_cast<double>(unknowns + 2);
+    const double gamma = kWiden * (off + kU * (longest * magnitude + 8 * entries)).maxCoeff();
+    const bool all_rows = rank == unknowns - polytope_.dim;
+    gain_ = all_rows && gamma < 0.5 && std::isfinite(norm_) ? kWiden * norm_ / (1 - gamma) : kInfinity;
+  }
+
+  /// η of a point u.
+  double shift_of(const Eigen::VectorXd& u) const {
+    if (matrix_.rows() == 0) return 0;
+    const Eigen::VectorXd residual = (matrix_ * u + wrench_).cwiseAbs();
+    const Eigen::VectorXd magnitude = matrix_.cwiseAbs() * u.cwiseAbs() + wrench_.cwiseAbs();
+    Eigen::VectorXd entries = Eigen::VectorXd::Zero(matrix_.rows());
+    for (int j = 0; j < matrix_.outerSize(); ++j) {
+      if (is_stick(j)) continue;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it)
+        entries[it.row()] += std::abs(u[j]);
+    }
+    const double terms = row_length_ + 2;
+    const double worst =
+        (residual + kU * (terms * magnitude + 8 * entries) + wrench_error_).maxCoeff() + kTiny;
+    const double shift = kWiden * gain_ * worst;
+    return std::isnan(shift) ? kInfinity : shift;
+  }
+
+  /// Visits each edge with its smallest slack once the point has been corrected.
+  template <class Visit>
+  void for_each_slack(const Eigen::VectorXd& u, double shift, Visit visit) const {
+    for (int k = 0; k < contacts_.unknowns(); ++k) {
+      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+      if (!is_stick(k)) {
+        visit(k, u[k] - shift);
+        continue;
+      }
+      const double mu = packing_[edge.contact].mu;
+      const int R = edge.sign > 0 ? k : k - 1;
+      const double slack = mu * u[R] + edge.sign * u[R + 1];
+      const double rounding = 4 * kU * (mu * std::abs(u[R]) + std::abs(u[R + 1]));
+      visit(k, slack - kWiden * ((mu + 1) * shift + rounding) - kTiny);
+    }
+  }
+
+  Eigen::VectorXd unknowns_of(const Eigen::VectorXd& forces) const {
+    Eigen::VectorXd u(contacts_.unknowns());
+    for (int k = 0; k < contacts_.unknowns(); ++k) {
+      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+      const int contact = edge.contact.value();
+      if (is_stick(k)) {
+        u[k] = forces[2 * contact + (edge.sign < 0 ? 1 : 0)];
+      } else {
+        u[k] = forces[2 * contact] / edge.R;
+      }
+    }
+    return u;
+  }
+
+  void bound_states() {
+    row_length_ = 0;
+    Eigen::VectorXd length = Eigen::VectorXd::Zero(matrix_.rows());
+    for (int j = 0; j < matrix_.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) length[it.row()] += 1;
+    }
+    if (length.size() > 0) row_length_ = length.maxCoeff();
+    centre_.u = Eigen::VectorXd::Zero(contacts_.unknowns());
+    for (Eigen::Index row = 0; row < ranges_.states.rows(); ++row) {
+      StateBound bound;
+      bound.u = unknowns_of(ranges_.states.row(row).transpose() / contacts_.force_unit);
+      centre_.u += bound.u / static_cast<double>(ranges_.states.rows());
+      states_.push_back(std::move(bound));
+    }
+    // Vertices alone lie on the boundary of an unbounded polytope.
+    for (Eigen::Index row = 0; row < ranges_.rays.rows(); ++row)
+      centre_.u += unknowns_of(ranges_.rays.row(row).transpose()) / static_cast<double>(ranges_.rays.rows());
+    centre_.shift = shift_of(centre_.u);
+    Eigen::VectorXd margin(contacts_.unknowns());
+    inside_ = !states_.empty() && std::isfinite(centre_.shift);
+    for_each_slack(centre_.u, centre_.shift, [&](int k, double slack) {
+      margin[k] = slack;
+      inside_ = inside_ && slack > 0;
+    });
+    for (StateBound& bound : states_) {
+      bound.shift = shift_of(bound.u);
+      bound.share = inside_ ? 0 : 1;
+      for_each_slack(bound.u, bound.shift, [&](int k, double slack) {
+        if (slack < 0 && inside_) bound.share = std::max(bound.share, kWiden * -slack / (margin[k] - slack));
+      });
+      if (!(bound.share <= 1)) bound.share = 1;
+    }
+  }
+
+  void sort_bases(std::span<const OptimalBasis> optima) {
+    basis_of_.setConstant(packing_.contact_count(), 4, -1);
+    std::map<std::pair<std::size_t, Basis>, int> numbers;
+    for (const OptimalBasis& optimum : optima) {
+      const auto [entry, is_new] =
+          numbers.emplace(std::make_pair(optimum.block, optimum.basis), static_cast<int>(factors_.size()));
+      if (is_new) {
+        const FeasibleSet& set = polytope_.blocks[optimum.block].set;
+        factors_.push_back({optimum.block, optimum.basis,
+                            Eigen::PartialPivLU<Eigen::MatrixXd>(set.slope(optimum.basis, Eigen::all))});
+      }
+      basis_of_(optimum.contact, optimum.column) = entry->second;
+    }
+  }
+
+  struct Factor {
+    std::size_t block;
+    Basis basis;
+    Eigen::PartialPivLU<Eigen::MatrixXd> active;
+  };
+
+  /// y for max f, from the reduced costs at its basis.
+  Eigen::VectorXd multipliers(const Functional& f, int number) const {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix_.rows());
+    const auto add = [&](int unknown, double weight) {
+      if (weight != 0) y += weight * right_inverse_.row(unknown).transpose();
+    };
+    for (const auto& [unknown, coefficient] : f.on_unknowns) add(unknown, coefficient);
+    if (number < 0) return y;
+    const Factor& factor = factors_[static_cast<std::size_t>(number)];
+    const PolytopeBlock& block = polytope_.blocks[factor.block];
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.set.dim());
+    for (const auto& [edge, coefficient] : f.on_edges) {
+      const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
+      if (local != block.edges.end() && *local == edge)
+        gradient += coefficient * block.set.slope.row(local - block.edges.begin()).transpose();
+    }
+    const Eigen::VectorXd costs = factor.active.transpose().solve(gradient);
+    for (Eigen::Index k = 0; k < costs.size(); ++k) {
+      const int edge = block.edges[static_cast<std::size_t>(factor.basis[static_cast<std::size_t>(k)])];
+      const double lambda = std::max(0.0, -costs[k]);
+      const Edge& named = contacts_.edges[static_cast<std::size_t>(edge)];
+      if (!is_stick(edge)) {
+        add(edge, lambda);
+        continue;
+      }
+      const double mu = packing_[named.contact].mu;
+      const int R = named.sign > 0 ? edge : edge - 1;
+      add(R, lambda * 0.5 / named.R);
+      add(R + 1, named.sign * lambda * 0.5 / (named.R * mu));
+    }
+    return y;
+  }
+
+  /// Upper bounds of h_k = f_k − (Aᵀ y)_k on edges, where positive.
+  template <class Visit>
+  void for_each_excess(const Functional& f, const Eigen::VectorXd& y, Visit visit) const {
+    std::size_t next = 0;
+    for (int k = 0; k < edge_matrix_.outerSize(); ++k) {
+      double own = 0;
+      if (next < f.on_edges.size() && f.on_edges[next].first == k) own = f.on_edges[next++].second;
+      double sum = own;
+      double magnitude = std::abs(own);
+      double plain = 0;
+      int terms = 4;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(edge_matrix_, k); it; ++it) {
+        const double product = it.value() * y[it.row()];
+        sum -= product;
+        magnitude += std::abs(product);
+        plain += std::abs(y[it.row()]);
+        ++terms;
+      }
+      const double excess = sum + kWiden * kU * (terms * magnitude + 8 * plain);
+      if (!(excess <= 0)) visit(k, excess);
+    }
+  }
+
+  /// Upper bound of −y·w.
+  double load_bound(const Eigen::VectorXd& y) const {
+    const Dot dot = accurate_dot(y, wrench_);
+    return -dot.value + kWiden * (dot.error + y.cwiseAbs().dot(wrench_error_));
+  }
+
+  /// X_k, from the certificates of the largest normal forces.
+  void bound_strengths() {
+    const Eigen::Index count = packing_.contact_count();
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(matrix_.rows());
+    std::vector<double> ratio(static_cast<std::size_t>(count), kInfinity);
+    std::vector<double> value(static_cast<std::size_t>(count), kInfinity);
+    Functional total;
+    bool complete = std::isfinite(gain_);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Functional f = functional(i, false, 1);
+      if (f.on_edges.empty()) continue;
+      total.on_edges.insert(total.on_edges.end(), f.on_edges.begin(), f.on_edges.end());
+      if (ranges_.vertex(i, kMaxR) < 0) {
+        complete = false;
+        continue;
+      }
+      const Eigen::VectorXd y = multipliers(f, basis_of_(i, kMaxR));
+      sum += y;
+      double& worst = ratio[static_cast<std::size_t>(i)];
+      worst = 0;
+      for_each_excess(f, y, [&](int k, double excess) {
+        worst = std::max(worst, kWiden * excess / contacts_.edges[static_cast<std::size_t>(k)].R);
+        if (std::isnan(excess)) worst = kInfinity;
+      });
+      value[static_cast<std::size_t>(i)] = load_bound(y);
+    }
+    strength_.setConstant(contacts_.unknowns(), kInfinity);
+    total_ = kInfinity;
+    if (!complete) return;
+    double worst = 0;
+    for_each_excess(total, sum, [&](int k, double excess) {
+      worst = std::max(worst, kWiden * excess / contacts_.edges[static_cast<std::size_t>(k)].R);
+      if (std::isnan(excess)) worst = kInfinity;
+    });
+    if (!(worst < 0.5)) return;
+    total_ = std::max(0.0, kWiden * load_bound(sum) / (1 - worst));
+    for (int k = 0; k < contacts_.unknowns(); ++k) {
+      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+      const auto i = static_cast<std::size_t>(edge.contact.value());
+      strength_[k] = kWiden * std::max(0.0, std::min(total_, value[i] + ratio[i] * total_)) / edge.R;
+    }
+  }
+
+  /// Upper bound of max f over F.
+  double from_above(const Functional& f, const Eigen::VectorXd& y) const {
+    if (!std::isfinite(gain_) && matrix_.rows() > 0) return kInfinity;
+    double bound = load_bound(y);
+    double excesses = 0;
+    for_each_excess(f, y, [&](int k, double excess) {
+      excesses += excess * strength_[k];
+      if (std::isnan(excess)) excesses = kInfinity;
+    });
+    bound += kWiden * excesses;
+    return std::isnan(bound) ? kInfinity : bound;
+  }
+
+  static double value_at(const Functional& f, const Eigen::VectorXd& u) {
+    double value = 0;
+    for (const auto& [unknown, coefficient] : f.on_unknowns) value += coefficient * u[unknown];
+    return value;
+  }
+
+  /// Lower bound of max f: f at an admissible state near the stored one.
+  double from_below(const Functional& f, const StateBound& state) const {
+    if (!inside_ || !std::isfinite(state.shift)) return -kInfinity;
+    const double value = value_at(f, state.u);
+    const double middle = value_at(f, centre_.u);
+    double reach = 0;
+    for (const auto& [unknown, coefficient] : f.on_unknowns) reach += std::abs(coefficient);
+    const double slack =
+        reach * (state.shift + centre_.shift) + 4 * kU * (std::abs(value) + std::abs(middle));
+    return value - kWiden * (slack + state.share * std::abs(value - middle)) - kTiny;
+  }
+
+  /// How far the value can move when every normal turns by up to one radian times a small factor.
+  double sensitivity_of(const Eigen::VectorXd& y, Eigen::Index state) const {
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(2 * packing_.disk_count());
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const EquilibriumRow& row = contacts_.rows[static_cast<std::size_t>(rows_[k])];
+      if (row.component < 2) motion[2 * row.disk.value() + row.component] = y[static_cast<Eigen::Index>(k)];
+    }
+    double sum = 0;
+    for (int i = 0; i < packing_.contact_count(); ++i) {
+      const Contact& contact = packing_[ContactId(i)];
+      Vector2 relative = motion.segment<2>(2 * contact.a.value());
+      if (!contact.b.is_wall()) relative -= motion.segment<2>(2 * contact.b.disk_id().value());
+      const double R = ranges_.states(state, 2 * i);
+      const double T = ranges_.states(state, 2 * i + 1);
+      sum += std::abs(relative.dot(T * contact.normal - R * contact.tangent()));
+    }
+    return sum;
+  }
+
+  void enclose(Eigen::Index i, int column) {
+    const double sign = column == kMaxR || column == kMaxT ? 1 : -1;
+    const Eigen::Index row = ranges_.vertex(i, column);
+    const StateBound& state = states_[static_cast<std::size_t>(row)];
+    const double stored = ranges_.states(row, 2 * i + (column >= kMinT ? 1 : 0));
+    double inner = 0;
+    double outer = 0;
+    const Functional f = functional(i, column >= kMinT, sign);
+    if (f.on_edges.empty()) {  // closed throughout F: exactly 0
+      ranges_.sensitivity(i, column) = 0;
+    } else {
+      const Eigen::VectorXd y = multipliers(f, basis_of_(i, column));
+      outer = from_above(f, y);
+      inner = from_below(f, state);
+      if (basis_of_(i, column) < 0) {
+        // Determined: the same bound from the other side holds for every state.
+        Functional opposite = f;
+        for (auto* part : {&opposite.on_unknowns, &opposite.on_edges}) {
+          for (auto& entry : *part) entry.second = -entry.second;
+        }
+        inner = std::max(inner, -from_above(opposite, -y));
+      }
+      ranges_.sensitivity(i, column) = sensitivity_of(y, row);
+    }
+    const double unit = contacts_.force_unit;
+    const auto widened = [&](double bound, double direction) {
+      return std::isinf(bound) ? bound
+                               : bound * unit + direction * (4 * kU * std::abs(bound) * unit + kTiny * unit);
+    };
+    const double low = sign > 0 ? inner : -outer;
+    const double high = sign > 0 ? outer : -inner;
+    ranges_.lower(i, column) = std::min(stored, widened(low, -1));
+    ranges_.upper(i, column) = std::max(stored, widened(high, 1));
+  }
+
+  const Packing& packing_;
+  const ForcePolytope& polytope_;
+  const ContactMatrix& contacts_;
+  ForceRanges& ranges_;
+  std::vector<int> first_;                   ///< of each contact its first unknown, −1 if it is open
+  std::vector<int> rows_;                    ///< independent equations
+  Eigen::SparseMatrix<double> matrix_;       ///< A on these rows
+  Eigen::SparseMatrix<double> edge_matrix_;  ///< the same on edges
+  Eigen::VectorXd wrench_, wrench_error_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> right_inverse_;  ///< P
+  double norm_ = 0;
+  double gain_ = 1;  ///< ‖P‖∞ / (1 − γ), +inf if γ is not below 1
+  double row_length_ = 0;
+  std::vector<StateBound> states_;
+  StateBound centre_;
+  bool inside_ = false;  ///< the centre is proven to be strictly inside
+  Eigen::Array<int, Eigen::Dynamic, 4, Eigen::RowMajor> basis_of_;
+  std::vector<Factor> factors_;
+  double total_ = kInfinity;  ///< bound of ΣR over F
+  Eigen::VectorXd strength_;  ///< X
+};
+
+}  // namespace
+
+bool enclose_values(const Packing& packing, const ForcePolytope& polytope,
+                    std::span<const OptimalBasis> optima, ForceRanges& ranges) {
+  return Encloser(packing, polytope, ranges).run(optima);
+}
+
+}  // namespace indet

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "indet/lp/feasible_set.h"
+#include "indet/packing/packing.h"
+#include "indet/polytope/force_polytope.h"
+#include "indet/range/force_ranges.h"
+
+namespace indet {
+
+/// The basis at which one objective was found optimal.
+struct OptimalBasis {
+  Eigen::Index contact = 0;
+  int column = 0;  ///< Column
+  std::size_t block = 0;
+  Basis basis;  ///< local to the block
+};
+
+/// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
+///
+/// The exact problem is A u = −w, x(u) ≥ 0, with the doubles of the packing taken as they are; A and w in
+/// memory differ from it by rounding, which is bounded entry by entry. With P ≈ A⁺ from a QR factorisation
+/// (rows of A independent), γ = ‖A P − 1‖∞ < 1 proves that every right-hand side ρ has a solution A Δ = ρ
+/// with ‖Δ‖∞ ≤ η = ‖P‖∞ ‖ρ‖∞ / (1 − γ). For max g·u:
+///
+///   from above, by weak duality, for any y:   g·u ≤ −y·w + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y  (on edges)
+///     y = Pᵀ (g − h̃) from the reduced costs h̃ = −λ of the basis, X_k any bound of x_k over F: from the same
+///     inequality for the sum of all normal forces
+///   from below, by an admissible state: the stored one plus its Δ violates x ≥ 0 by at most η; moved by a
+///   share θ
+///     towards the mean of all stored states (plus its own Δ), which lies inside by some margin, it violates
+///     nothing
+///
+/// and vice versa for a minimum. Roundings of the evaluation are bounded a priori (Higham, Accuracy and
+/// Stability of Numerical Algorithms, ch. 3: |fl(x·y) − x·y| ≤ n u |x|·|y| / (1 − n u)); y·w by Ogita, Rump
+/// and Oishi's Dot2.
+///
+/// Preconditions on which the enclosure rests and that are proven elsewhere: the rank and the closed edges
+/// (exact::proves_structure). Where a step fails, that side of the enclosure is infinite. F1, bounds of
+/// unbounded polytopes: the upper side of a maximum stays infinite unless every h_k ≤ 0.
+
+/// Fills lower, upper and sensitivity of every objective that has a state, from `states` and `vertex`.
+/// Objectives without an entry in `optima` are determined: the same in every state. Returns false if some
+/// admissible state, or the boundedness of a polytope called bounded, could not be proven.
+bool enclose_values(const Packing& packing, const ForcePolytope& polytope,
+                    std::span<const OptimalBasis> optima, ForceRanges& ranges);
+
+}  // namespace indet

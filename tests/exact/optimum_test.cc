@@ -1,0 +1,131 @@
+#include "indet/exact/optimum.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "indet/exact/certificate.h"
+#include "support/extremes.h"
+#include "support/rational_simplex.h"
+#include "support/zoo.h"
+
+namespace indet::exact {
+namespace {
+
+std::shared_ptr<const ContactBasis> any_basis(const ContactProblem& problem) {
+  const std::vector<double> preference(static_cast<std::size_t>(problem.edges()), 0);
+  return ContactBasis::create(problem, problem.choose_basis(preference));
+}
+
+/// sin and cos as stored: then the forces of the groove are rational.
+TEST(ContactBasis, GivesTheForcesOfTheGroove) {
+  const Packing packing = zoo::wedge(0.5, 0.3);
+  const ContactProblem problem(packing);
+  EXPECT_EQ(problem.rank(), 3);
+  // Both contacts slide with T = +μR on contact 0, −μR on contact 1: R = 1 / (2 (n_y − μ n_x)).
+  const auto basis = ContactBasis::create(problem, {0, 1, 3});
+  ASSERT_TRUE(basis);
+  const mpq_class nx(packing.contacts[0].normal.x());
+  const mpq_class ny(packing.contacts[0].normal.y());
+  const mpq_class mu(0.3);
+  const mpq_class largest = 1 / (2 * (ny - mu * nx));
+  EXPECT_EQ(basis->force(0), largest);
+  EXPECT_EQ(basis->force(1), mu * largest);
+  EXPECT_EQ(basis->force(3), -mu * largest);
+  EXPECT_EQ(basis->first_negative(), -1);
+  const Optimum top = maximise(problem, any_basis(problem), {0, 1}, 50);
+  EXPECT_EQ(top.verdict, Verdict::kOptimal);
+  EXPECT_EQ(top.value, largest);
+  const Optimum bottom = maximise(problem, any_basis(problem), {0, -1}, 50);
+  EXPECT_EQ(bottom.value, mpq_class(1 / (2 * (ny + mu * nx))));
+}
+
+/// From any basis the criss-cross walk reaches what the textbook tableau finds.
+TEST(Optimum, AgreesWithTheTableauOnRandomScenes) {
+  int empty = 0;
+  int unbounded = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    const extremes::Scene scene = extremes::random_scene(seed, 3);
+    SCOPED_TRACE(scene.kind + scene.name);
+    const ContactProblem problem(scene.packing);
+    oracle::RationalSimplex tableau(scene.packing);
+    if (scene.packing.contact_count() == 0) continue;
+    const Optimum solution = find_solution(problem, any_basis(problem), 1000);
+    if (tableau.is_empty()) {
+      ++empty;
+      EXPECT_TRUE(solution.verdict == Verdict::kEmpty || solution.verdict == Verdict::kInconsistent);
+      continue;
+    }
+    ASSERT_EQ(solution.verdict, Verdict::kOptimal);
+    EXPECT_EQ(problem.rank(), tableau.rank());
+    for (int component = 0; component < 2 * scene.packing.contact_count(); ++component) {
+      for (const int sign : {-1, 1}) {
+        const Optimum found = maximise(problem, solution.basis, {component, sign}, 1000);
+        const auto exact = tableau.extremum(component, sign);
+        unbounded += exact ? 0 : 1;
+        ASSERT_EQ(found.verdict, exact ? Verdict::kOptimal : Verdict::kUnbounded);
+        if (exact) {
+          ASSERT_EQ(found.value, *exact);
+        }
+      }
+    }
+  }
+  EXPECT_GT(empty, 5);
+  EXPECT_GT(unbounded, 20);
+}
+
+TEST(Certificate, AMotionWithRoundingBecomesExact) {
+  // On an incline the disk rolls down: it turns and moves along the plane, (cos, −sin), rω = −1.
+  const Packing packing = zoo::disk_on_incline(0.3, 0.5);
+  const ContactProblem problem(packing);
+  std::vector<double> motion(3);
+  motion[static_cast<std::size_t>(problem.row(DiskId(0), 0))] = std::cos(0.3) + 1e-13;
+  motion[static_cast<std::size_t>(problem.row(DiskId(0), 1))] = -std::sin(0.3);
+  motion[static_cast<std::size_t>(problem.row(DiskId(0), 2))] = -1;
+  EXPECT_TRUE(proves_emptiness(problem, motion, {}, 1e-9));
+  for (double& velocity : motion) velocity = -velocity;
+  EXPECT_FALSE(proves_emptiness(problem, motion, {}, 1e-9)) << "uphill";
+  motion = {0, 1, 0};
+  EXPECT_FALSE(proves_emptiness(problem, motion, {}, 1e-9)) << "away from the load";
+  EXPECT_FALSE(
+      proves_emptiness(ContactProblem(zoo::wedge(0.3, 0.5)), std::vector<double>{0, -1, 0}, {}, 1e-9));
+}
+
+TEST(Certificate, TellsARayFromNearlyOne) {
+  // The groove of tan φ = 1 jams for μ > 1: along x₊ of contact 0 and x₋ of contact 1, and the others a
+  // little.
+  const auto ray = [&](double mu, double share) {
+    const ContactProblem problem(zoo::wedge(std::atan(1.0), mu));
+    // R n̂ + T t̂ is horizontal for T = R on contact 0, T = −R on contact 1; x± = (R ± T/μ) / 2.
+    const double T = 1 / mu;
+    return proves_ray(problem,
+                      std::vector<double>{(1 + T) / 2, share * (1 - T) / 2, share * (1 - T) / 2, (1 + T) / 2},
+                      1e-9);
+  };
+  EXPECT_TRUE(ray(1.5, 1));
+  EXPECT_FALSE(ray(1.5, 0)) << "without its second edges it does not balance";
+  EXPECT_FALSE(ray(0.9, 1));
+}
+
+TEST(Certificate, ProvesRankAndClosedEdges) {
+  // Corner with μ_wall < 1: the wall carries nothing. x: R_wall + T_floor = 0; torque: T_floor + T_wall = 0.
+  const ContactProblem corner(zoo::corner(0.3, 0.5));
+  std::vector<double> motion(3, 0);
+  motion[static_cast<std::size_t>(corner.row(DiskId(0), 0))] = 1;
+  motion[static_cast<std::size_t>(corner.row(DiskId(0), 2))] = -1;
+  // The floor contact rolls; the wall opens by 1 and slips by 1, so that its power R ± T with |T| ≤ R/2 is
+  // positive.
+  EXPECT_TRUE(proves_structure(corner, std::vector<Closing>{{{2, 3}, motion}}, 2));
+  EXPECT_FALSE(proves_structure(corner, std::vector<Closing>{{{2, 3}, motion}}, 3));
+  EXPECT_FALSE(proves_structure(corner, std::vector<Closing>{{{0}, motion}}, 2));
+  EXPECT_TRUE(proves_structure(corner, {}, 3));
+  // One disk on the floor: two of its three equations say T = 0.
+  EXPECT_TRUE(proves_structure(ContactProblem(zoo::disk_on_floor(0.3)), {}, 2));
+  // A normal that is not parallel to the load in its last digit: nothing balances exactly.
+  Packing turned = zoo::rotated(zoo::disk_on_floor(0.3), 0.7);
+  turned.contacts[0].normal.x() += 1e-15;
+  EXPECT_FALSE(proves_structure(ContactProblem(turned), {}, 2));
+}
+
+}  // namespace
+}  // namespace indet::exact

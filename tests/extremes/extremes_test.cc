@@ -1,0 +1,86 @@
+#include "support/extremes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "indet/packing/validate.h"
+#include "indet/range/analyze.h"
+#include "support/zoo.h"
+
+namespace indet {
+namespace {
+
+using extremes::Scene;
+using extremes::Tally;
+
+Tally judge(const Scene& scene) {
+  EXPECT_FALSE(find_defect(scene.packing)) << scene.kind << ", " << scene.name;
+  const Tally tally = extremes::judge(scene, analyze(scene.packing));
+  for (const std::string& complaint : tally.complaints) ADD_FAILURE() << complaint;
+  return tally;
+}
+
+TEST(Extremes, NoFixedSceneIsSilentlyWrong) {
+  const std::vector<Scene> scenes = extremes::fixed_scenes();
+  EXPECT_GE(scenes.size(), 300U);
+  Tally total;
+  for (const Scene& scene : scenes) total.add(judge(scene));
+  EXPECT_EQ(total.wrong, 0);
+  // Marks are for what is in doubt, not a way out.
+  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+}
+
+TEST(Extremes, NoRandomSceneIsSilentlyWrong) {
+  Tally total;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) total.add(judge(extremes::random_scene(seed, 3)));
+  EXPECT_EQ(total.wrong, 0);
+  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+}
+
+/// Multiplying by a power of two is exact, so nothing but the exponents may change.
+TEST(Extremes, PowersOfTwoScaleBitForBit) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Packing packing = zoo::random_pile(seed, 6, -1);
+    const ForceRanges plain = analyze(packing);
+    for (const int exponent : {-300, -40, 1, 40, 300}) {
+      const double factor = std::ldexp(1.0, exponent);
+      const ForceRanges longer = analyze(zoo::rescaled(packing, factor, 1, 1));
+      const ForceRanges heavier = analyze(zoo::rescaled(packing, 1, 1, factor));
+      for (Eigen::Index i = 0; i < plain.value.rows(); ++i) {
+        for (int column = 0; column < 4; ++column) {
+          const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+          EXPECT_TRUE(same(longer.value(i, column), plain.value(i, column)));
+          EXPECT_TRUE(same(heavier.value(i, column), factor * plain.value(i, column)));
+          EXPECT_TRUE(same(heavier.lower(i, column), factor * plain.lower(i, column)));
+          EXPECT_TRUE(same(heavier.upper(i, column), factor * plain.upper(i, column)));
+          EXPECT_EQ(heavier.outcome(i, column), plain.outcome(i, column));
+        }
+      }
+    }
+  }
+}
+
+TEST(Extremes, TheJudgeSeesAWrongNumberAndAMissedBound) {
+  const Scene scene{"wedge", "as it is", extremes::fixed_scenes().front().packing};
+  const ForceRanges right = analyze(scene.packing);
+  EXPECT_EQ(extremes::judge(scene, right).right, 8);
+
+  ForceRanges wrong = right;
+  wrong.value(0, kMaxR) *= 1.001;
+  EXPECT_EQ(extremes::judge(scene, wrong).contained, 1);
+  wrong.lower(0, kMaxR) = wrong.value(0, kMaxR);
+  wrong.upper(0, kMaxR) = wrong.value(0, kMaxR);
+  EXPECT_EQ(extremes::judge(scene, wrong).wrong, 1);
+  wrong.outcome(0, kMaxR) = Outcome::kImprecise;
+  EXPECT_EQ(extremes::judge(scene, wrong).marked, 1);
+  ForceRanges unbounded = right;
+  unbounded.value(1, kMinT) = -INFINITY;
+  EXPECT_EQ(extremes::judge(scene, unbounded).wrong, 1);
+  ForceRanges empty = right;
+  empty.status = PolytopeStatus::kEmpty;
+  EXPECT_EQ(extremes::judge(scene, empty).wrong, 1);
+}
+
+}  // namespace
+}  // namespace indet

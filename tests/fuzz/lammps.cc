@@ -1,0 +1,14 @@
+// Parts: the dump of atoms, the dump of contacts.
+#include "indet/io/lammps_reader.h"
+#include "target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace indet;
+  const auto parts = fuzz::parts({reinterpret_cast<const char*>(data), size});
+  LammpsOptions options;
+  options.atoms = fuzz::write("atoms.dump", parts[0]);
+  options.contacts = fuzz::write("contacts.dump", parts.size() > 1 ? parts[1] : std::string_view());
+  options.friction = 0.3;
+  fuzz::expect_input_error_or_success([&] { read_lammps(options); });
+  return 0;
+}

@@ -1,0 +1,123 @@
+#include "indet/verify/exact_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "indet/range/analyze.h"
+#include "indet/verify/verify.h"
+#include "support/extremes.h"
+#include "support/rational_simplex.h"
+#include "support/zoo.h"
+
+namespace indet {
+namespace {
+
+TEST(ExactCheck, ProvesAllObjectivesOfAPile) {
+  const Packing packing = zoo::random_pile(101, 12, 0.5);  // one of the piles that stand
+  const ForceRanges ranges = analyze(packing);
+  ASSERT_NE(ranges.status, PolytopeStatus::kEmpty);
+  const ExactCheck check = check_exactly(packing, ranges);
+  EXPECT_TRUE(check.passed()) << (check.messages.empty() ? "" : check.messages.front());
+  EXPECT_EQ(check.proven + check.repaired, 4 * packing.contact_count());
+  EXPECT_EQ(check.rank, ranges.rank);
+  EXPECT_LT(check.worst_error, 1e-10);
+  ExactCheckOptions two;
+  two.threads = 2;
+  EXPECT_EQ((check.lower == check_exactly(packing, ranges, two).lower).all(), true);
+}
+
+TEST(ExactCheck, RepairsAWrongStateAndReportsAWrongBound) {
+  const Packing packing = zoo::wedge(0.5, 0.3);
+  ForceRanges wrong = analyze(packing);
+  wrong.vertex(0, kMaxR) = wrong.vertex(0, kMinR);
+  ExactCheck check = check_exactly(packing, wrong);
+  EXPECT_EQ(check.repaired, 1);
+  EXPECT_GT(check.pivots, 0);
+  EXPECT_TRUE(check.passed());
+  wrong.upper(0, kMaxR) = wrong.lower(0, kMaxR) = wrong.value(0, kMaxR) = wrong.value(0, kMinR);
+  check = check_exactly(packing, wrong);
+  EXPECT_EQ(check.contradictions, 1);
+  EXPECT_FALSE(check.passed());
+  EXPECT_NEAR(check.worst_error, zoo::wedge_ranges(0.5, 0.3).delta_R, 1e-12);
+}
+
+TEST(ExactCheck, TellsUnboundedFromFinite) {
+  const Packing packing = zoo::pinched_disk(0.4);
+  ForceRanges ranges = analyze(packing);
+  EXPECT_EQ(check_exactly(packing, ranges).proven, 8);
+  ranges.value(0, kMinR) = -INFINITY;
+  EXPECT_EQ(check_exactly(packing, ranges).refuted, 1);
+  ranges = analyze(packing);
+  ranges.value(0, kMaxR) = ranges.lower(0, kMaxR) = ranges.upper(0, kMaxR) = 7;
+  ranges.vertex(0, kMaxR) = 0;
+  ranges.outcome(0, kMaxR) = Outcome::kOptimal;
+  const ExactCheck check = check_exactly(packing, ranges);
+  EXPECT_EQ(check.refuted, 1);
+  EXPECT_EQ(check.contradictions, 1);
+}
+
+TEST(ExactCheck, ProvesThatAPackingCannotStand) {
+  for (const Packing& packing :
+       {zoo::disk_on_incline(0.2, 1), zoo::pyramid(0.7, 0.2, 0.5), zoo::spun_wedge(0.6, 0.3, 2)}) {
+    const ForceRanges ranges = analyze(packing);
+    ASSERT_EQ(ranges.status, PolytopeStatus::kEmpty);
+    EXPECT_FALSE(ranges.doubtful);
+    const ExactCheck check = check_exactly(packing, ranges);
+    EXPECT_TRUE(check.proves_emptiness);
+    EXPECT_TRUE(check.passed());
+  }
+  ForceRanges forged = analyze(zoo::disk_on_incline(0.2, 1));
+  const ExactCheck check = check_exactly(zoo::wedge(0.5, 0.3), forged);
+  EXPECT_FALSE(check.proves_emptiness);
+  EXPECT_EQ(check.refuted, 1);
+}
+
+TEST(ExactCheck, SaysThatTheRankDiffers) {
+  // Normals that differ by 1e-15: in doubles one direction, exactly two.
+  const Packing packing = zoo::wedge(1e-15, 0.3);
+  const ForceRanges ranges = analyze(packing);
+  EXPECT_TRUE(ranges.doubtful);
+  const ExactCheck check = check_exactly(packing, ranges);
+  EXPECT_EQ(ranges.rank, 2);
+  EXPECT_EQ(check.rank, 3);
+  ASSERT_FALSE(check.messages.empty());
+  EXPECT_NE(check.messages.front().find("rank differs"), std::string::npos);
+}
+
+TEST(AdoptExact, StoresTheExactValuesRoundedOnce) {
+  int scenes = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const extremes::Scene scene = extremes::random_scene(seed, 3);
+    SCOPED_TRACE(scene.kind + ", " + scene.name);
+    ForceRanges ranges = analyze(scene.packing);
+    if (ranges.status == PolytopeStatus::kEmpty || ranges.doubtful) continue;
+    const ExactCheck check = check_exactly(scene.packing, ranges);
+    EXPECT_TRUE(check.passed());
+    adopt_exact(scene.packing, check, ranges);
+    EXPECT_EQ(ranges.certified, ranges.objectives);
+    oracle::RationalSimplex exact(scene.packing);
+    for (int i = 0; i < scene.packing.contact_count(); ++i) {
+      for (int column = 0; column < 4; ++column) {
+        const auto value = exact.extremum(2 * i + (column >= kMinT ? 1 : 0), column % 2 == 0 ? -1 : 1);
+        const double stored = ranges.value(i, column);
+        if (!value) {
+          EXPECT_TRUE(std::isinf(stored));
+          continue;
+        }
+        EXPECT_LE(mpq_class(ranges.lower(i, column)), *value);
+        EXPECT_GE(mpq_class(ranges.upper(i, column)), *value);
+        EXPECT_LE(ranges.upper(i, column), std::nextafter(ranges.lower(i, column), INFINITY));
+        EXPECT_LE(ranges.lower(i, column), stored);
+        EXPECT_GE(ranges.upper(i, column), stored);
+      }
+    }
+    const Verification again = verify_ranges(scene.packing, ranges);
+    EXPECT_TRUE(again.passed()) << (again.messages.empty() ? "" : again.messages.front());
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 20);
+}
+
+}  // namespace
+}  // namespace indet
