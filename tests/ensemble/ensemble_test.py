@@ -39,6 +39,9 @@ class EnsembleTest(program.ProgramTest):
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
         self.assertEqual([name.decode() for name in runs["unit"]],
                          [f"{p}-{s:04}" for p in ("cd1", "cd2", "md1", "md2") for s in (0, 1)])
+        shown = json.loads(self.run_indet("inspect", "e", "--json").stdout)
+        self.assertEqual((shown["packings"], shown["intact"]), (8, True))
+        self.assertIn("md2", self.run_indet("inspect", "e/ensemble.h5").stdout)
         self.assertTrue((runs["certified"] == 4 * runs["contacts"]).all())
         self.assertTrue((runs["nullity"] >= runs["lower_bound"]).all())
         self.assertEqual(len(contacts["run"]), runs["contacts"].sum())
