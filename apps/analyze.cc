@@ -96,6 +96,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                          {"nullity", ranges.nullity},
                          {"rank_gap", number(ranges.rank_gap)},
                          {"rank_ambiguous", ranges.rank_ambiguous},
+                         {"doubtful", ranges.doubtful},
                          {"dim", ranges.dim},
                          {"expected_dim", 2 * packing.contact_count() - 3 * packing.disk_count()},
                          {"blocks", ranges.blocks},
@@ -181,6 +182,10 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
         "imprecise.\n",
         ranges.smallest_accepted, ranges.largest_rejected);
   }
+  if (ranges.doubtful && !ranges.rank_ambiguous) {
+    fmt::print(
+        "Rounding decides here whether forces balance or stay limited: every result is marked imprecise.\n");
+  }
   if (ranges.status == PolytopeStatus::kEmpty) {
     print_motion(packing, ranges);
     fmt::print("\nwritten to {}\n", output);
@@ -239,7 +244,7 @@ int run(const Options& options, const Context& context) {
   } else {
     print_summary(packing, ranges, output.string());
   }
-  if (ranges.status == PolytopeStatus::kEmpty) return kNoAdmissibleState;
+  if (ranges.status == PolytopeStatus::kEmpty) return ranges.doubtful ? kUncertain : kNoAdmissibleState;
   return ranges.imprecise + ranges.failed > 0 ? kUncertain : kDone;
 }
 

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "indet/ensemble/comparison.h"
@@ -19,14 +23,49 @@
 namespace indet::app {
 namespace {
 
+/// Attributes of /simulation or /sampling, which describe how the forces came about.
+struct Account {
+  std::map<std::string, std::string> texts;
+  std::map<std::string, double> numbers;
+
+  /// A number as text, or "unknown" where a file does not have it.
+  std::string text_of(const std::string& name, const char* format = "{:.4g}") const {
+    const auto found = numbers.find(name);
+    return found == numbers.end() ? "unknown" : fmt::format(fmt::runtime(format), found->second);
+  }
+};
+
+struct TrajectoryExtent {
+  std::size_t frames = 0;
+  double start = 0, end = 0;  ///< Times, in the scene's unit.
+};
+
 /// Everything that is shown of a file.
 struct FileContents {
   Packing packing;
   BalanceReport balance;
   std::optional<ForceRanges> ranges;
+  std::optional<Account> simulation, sampling;
+  std::optional<TrajectoryExtent> trajectory;
   Digests digests;
   std::map<std::string, std::string> provenance;
 };
+
+std::optional<Account> account_of(const Hdf5File& file, const std::string& group,
+                                  std::initializer_list<const char*> texts) {
+  if (!file.has(group)) return {};
+  Account account;
+  account.numbers = file.number_attributes(group);
+  for (const char* name : texts) account.texts[name] = file.string_attribute(group, name);
+  return account;
+}
+
+std::optional<TrajectoryExtent> trajectory_of(const Hdf5File& file) {
+  if (!file.has("/trajectory")) return {};
+  const std::vector<double> times = file.read_doubles("/trajectory/time", file.shape("/trajectory/time", 1));
+  if (times.empty()) return TrajectoryExtent{};
+  return TrajectoryExtent{times.size(), times.front(), times.back()};
+}
 
 FileContents read(const std::string& path) {
   FileContents contents;
@@ -40,6 +79,9 @@ FileContents read(const std::string& path) {
   for (const char* name : {"version", "git", "compiler", "host", "created"}) {
     contents.provenance[name] = file.string_attribute("/provenance", name);
   }
+  contents.simulation = account_of(file, "/simulation", {"ending", "reason", "method", "polish"});
+  contents.sampling = account_of(file, "/sampling", {"method"});
+  contents.trajectory = trajectory_of(file);
   return contents;
 }
 
@@ -72,6 +114,12 @@ nlohmann::json number(double value) {
   return std::isnan(value) ? nlohmann::json() : nlohmann::json(value > 0 ? "inf" : "-inf");
 }
 
+nlohmann::json to_json(const Account& account) {
+  nlohmann::json json = account.texts;
+  for (const auto& [name, value] : account.numbers) json[name] = number(value);
+  return json;
+}
+
 nlohmann::json to_json(const std::string& path, const FileContents& contents) {
   const Packing& packing = contents.packing;
   nlohmann::json json = {
@@ -84,6 +132,8 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"gravity", {packing.gravity.x(), packing.gravity.y()}},
       {"force_unit", packing.force_unit()},
       {"r_max", packing.max_radius()},
+      {"Lx", packing.origin.width},
+      {"Ly", packing.origin.height},
       {"forces_known", contents.balance.forces_known},
       {"content_sha256", contents.digests.content},
       {"intact", contents.digests.match()},
@@ -93,6 +143,13 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
     json["torque_residual"] = contents.balance.torque_residual;
     json["coulomb_violations"] = contents.balance.coulomb_violations;
     json["sliding"] = contents.balance.sliding;
+  }
+  if (contents.simulation) json["simulation"] = to_json(*contents.simulation);
+  if (contents.sampling) json["sampling"] = to_json(*contents.sampling);
+  if (contents.trajectory) {
+    json["trajectory"] = {{"frames", contents.trajectory->frames},
+                          {"start", contents.trajectory->start},
+                          {"end", contents.trajectory->end}};
   }
   if (contents.ranges) {
     const ForceRanges& r = *contents.ranges;
@@ -153,6 +210,9 @@ void print_packing(const FileContents& contents) {
                                        2 * packing.contact_count() - 3 * packing.disk_count()));
   print_line("  friction",
              friction.low == friction.high ? fmt::format("{:g}", friction.low) : span_text(friction, ""));
+  if (packing.origin.width > 0 && packing.origin.height > 0) {
+    print_line("  made in", fmt::format("Lx = {:g}, Ly = {:g}", packing.origin.width, packing.origin.height));
+  }
   print_line("  gravity",
              fmt::format("({:g}, {:g}); the unit of force is {:.6g}{}", packing.gravity.x(),
                          packing.gravity.y(), unit, packing.named_force_unit > 0 ? "" : " = mg"));
@@ -166,6 +226,30 @@ void print_packing(const FileContents& contents) {
              fmt::format("force to {:.1e} mg, torque to {:.1e} mg r, {} Coulomb violations, {} sliding",
                          balance.force_residual, balance.torque_residual, balance.coulomb_violations,
                          balance.sliding));
+}
+
+void print_simulation(const Account& s) {
+  print_line("simulation", s.texts.at("method"));
+  print_line("  ended", s.texts.at("reason"));
+  print_line("  steps",
+             fmt::format("{} of {}, {} with an iteration that was cut short", s.text_of("steps", "{:.0f}"),
+                         s.text_of("dt"), s.text_of("capped_steps", "{:.0f}")));
+  print_line("  raw forces", fmt::format("balance to {} mg", s.text_of("raw_residual", "{:.1e}")));
+  print_line("  polish", fmt::format("{}: to {} mg, {} mg away from the raw forces, {} sliding",
+                                     s.texts.at("polish"), s.text_of("residual", "{:.1e}"),
+                                     s.text_of("distance", "{:.1e}"), s.text_of("sliding", "{:.0f}")));
+  print_line("  mean R, overlap",
+             fmt::format("{} mg, {} r_max", s.text_of("mean_R"), s.text_of("mean_overlap", "{:.1e}")));
+}
+
+void print_sampling(const Account& s) {
+  print_line("samples", fmt::format("{} by {}, {} accepted, in {} chains", s.text_of("samples", "{:.0f}"),
+                                    s.texts.at("method"), s.text_of("accepted", "{:.0f}"),
+                                    s.text_of("chains", "{:.0f}")));
+  print_line("  r", fmt::format("{} ± {} mg, spread {} mg", s.text_of("r"), s.text_of("r_error", "{:.2g}"),
+                                s.text_of("spread")));
+  print_line("  centre", fmt::format("{} mg away from the packing's forces", s.text_of("start_distance")));
+  print_line("  balance", fmt::format("accepted samples to {} mg", s.text_of("worst_residual", "{:.1e}")));
 }
 
 void print_ranges(const ForceRanges& r) {
@@ -228,6 +312,12 @@ int run(const std::string& given, const Context& context) {
   }
   print_line("file", path);
   print_packing(contents);
+  if (contents.simulation) print_simulation(*contents.simulation);
+  if (contents.trajectory) {
+    print_line("trajectory", fmt::format("{} frames, time {:.4g} … {:.4g}", contents.trajectory->frames,
+                                         contents.trajectory->start, contents.trajectory->end));
+  }
+  if (contents.sampling) print_sampling(*contents.sampling);
   if (contents.ranges) {
     print_ranges(*contents.ranges);
     print_line("  SHA-256", contents.digests.ranges);

@@ -123,6 +123,7 @@ SimulationOptions method_of(const SimulateOptions& o, bool rigid, const CLI::App
 struct Start {
   sim::World world;
   std::int64_t seed = 0;
+  double width = 0;   ///< 0: not known.
   double height = 0;  ///< That the default time limit is reckoned from.
   std::string description;
 };
@@ -132,23 +133,24 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
   if (!o.from.empty()) {
     refuse_scene_options(command);
     const Packing packing = read_packing(o.from);
-    sim::Friction friction = sim::friction_of(packing, {});
-    set(friction.disk, o.mu);
-    set(friction.wall, o.mu);
-    set(friction.wall, o.wall_mu);
+    const sim::Friction friction = sim::friction_of(packing, {o.mu, o.wall_mu ? o.wall_mu : o.mu});
     Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
     if (o.seed) start.seed = static_cast<std::int64_t>(*o.seed);
     start.description = "from = \"" + o.from + "\"\n" + packing.origin.config;
-    start.height = o.height.value_or(
-        Scene{.disks = packing.disk_count(), .radius_max = packing.max_radius()}.resolved().height);
+    const Scene usual{.disks = packing.disk_count(), .radius_max = packing.max_radius()};
+    start.width = packing.origin.width;
+    start.height =
+        o.height.value_or(packing.origin.height > 0 ? packing.origin.height : usual.resolved().height);
     if (second) start.world.bring_to_rest();
     return start;
   }
   const Scene scene = scene_of(o);
+  const Scene resolved = scene.resolved();
   Start start{.world = sim::build(scene),
               .seed = static_cast<std::int64_t>(scene.seed),
-              .height = scene.resolved().height,
-              .description = sim::to_toml(scene.resolved())};
+              .width = resolved.width,
+              .height = resolved.height,
+              .description = sim::to_toml(resolved)};
   if (second) {
     context.note("no --from: simulating cd1 first");
     SimulationOptions first;
@@ -226,7 +228,11 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   Packing packing = result.packing;
-  packing.origin = {.protocol = o.protocol, .seed = start.seed, .config = fingerprint};
+  packing.origin = {.protocol = o.protocol,
+                    .seed = start.seed,
+                    .config = fingerprint,
+                    .width = start.width,
+                    .height = start.height};
   const SimulationRecord record = record_of(result, options);
   Provenance provenance = about;
   provenance.seconds["simulate"] = seconds;

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -16,7 +16,8 @@
 /// Speed of the simulators, and the problems that bench/peers gives to other programs.
 ///
 ///   bench_simulators scaling              cost per particle-step and per contact update, N = 95 … 6400
-///   bench_simulators md N STEPS FOLDER    MD (stiff) of N disks that have fallen; atoms.csv for LAMMPS
+///   bench_simulators md N STEPS FOLDER    MD (stiff) of N disks that have fallen; atoms.csv for LAMMPS;
+///                                         prints the processor time of a run for each line on stdin
 ///   bench_simulators statics N MU FOLDER  a frozen CD packing as CSV; reads tolerances from stdin and prints
 ///                                         "seconds residual sweeps" of the Gauss–Seidel solver from F = 0
 ///                                         for each
@@ -24,14 +25,12 @@ namespace {
 
 using namespace indet;
 using namespace indet::sim;
-using Clock = std::chrono::steady_clock;
 
 /// The fastest of so many runs counts: other programs on the machine only slow one down.
 constexpr int kRepeats = 3;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+/// Processor time of this process: what others do on the machine enters as little as can be.
+double seconds_used() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Scene scene_of(int disks, double mu = 0.3) {
   Scene scene;
@@ -80,17 +79,17 @@ void scaling() {
     const auto md = make_stepper(dense, {}, stiff_springs());
     const int steps = 40000000 / disks / 4;
     md->advance(steps / 4);
-    const auto md_start = Clock::now();
+    const double md_start = seconds_used();
     md->advance(steps);
-    const double md_cost = seconds_since(md_start) / (static_cast<double>(steps) * disks);
+    const double md_cost = (seconds_used() - md_start) / (static_cast<double>(steps) * disks);
 
     const auto cd = make_stepper(dense, {}, rigid);
     cd->advance(20);
     const auto updates = cd->report().contact_updates;
-    const auto cd_start = Clock::now();
+    const double cd_start = seconds_used();
     cd->advance(std::max(20, 200000 / disks));
     const double cd_cost =
-        seconds_since(cd_start) / static_cast<double>(cd->report().contact_updates - updates);
+        (seconds_used() - cd_start) / static_cast<double>(cd->report().contact_updates - updates);
     fmt::print("{:>6} {:>22.1f} {:>24.2f} {:>10}\n", disks, md_cost * 1e9, cd_cost * 1e9,
                cd->report().contacts);
   }
@@ -107,19 +106,20 @@ void md(int disks, int steps, const std::string& folder) {
   }
   World start = world;
   start.bring_to_rest();
-  double seconds = std::numeric_limits<double>::infinity();
-  const auto stepper = make_stepper(start, {}, stiff_springs());
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto begin = Clock::now();
-    make_stepper(start, {}, stiff_springs())->advance(steps);
-    seconds = std::min(seconds, seconds_since(begin));
-  }
+  atoms.close();
   const Units units = world.units();
   fmt::print(
-      "{{\"seconds\": {}, \"dt\": {:.17g}, \"k\": {:.17g}, \"gamma\": {:.17g}, \"width\": {}, \"mu\": 0.3, "
+      "{{\"dt\": {:.17g}, \"k\": {:.17g}, \"gamma\": {:.17g}, \"width\": {}, \"mu\": 0.3, "
       "\"mass\": {:.17g}}}\n",
-      seconds, stepper->dt(), 1.2e6 * units.stiffness(), 558 * units.damping(), scene.resolved().width,
-      units.mass);
+      make_stepper(start, {}, stiff_springs())->dt(), 1.2e6 * units.stiffness(), 558 * units.damping(),
+      scene.resolved().width, units.mass);
+  std::fflush(stdout);
+  for (std::string line; std::getline(std::cin, line);) {
+    const double begin = seconds_used();
+    make_stepper(start, {}, stiff_springs())->advance(steps);
+    fmt::print("{}\n", seconds_used() - begin);
+    std::fflush(stdout);
+  }
 }
 
 void statics(int disks, double mu, const std::string& folder) {
@@ -148,9 +148,9 @@ void statics(int disks, double mu, const std::string& folder) {
     double seconds = std::numeric_limits<double>::infinity();
     StaticForces result;
     for (int i = 0; i < kRepeats; ++i) {
-      const auto begin = Clock::now();
+      const double begin = seconds_used();
       result = solve_statics(packing, zero, {.tolerance = tolerance, .max_sweeps = 2000000});
-      seconds = std::min(seconds, seconds_since(begin));
+      seconds = std::min(seconds, seconds_used() - begin);
     }
     std::ofstream forces(folder + "/forces.csv");
     for (const double force : result.forces) forces << fmt::format("{:.17g}\n", force);

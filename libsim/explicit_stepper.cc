@@ -8,92 +8,128 @@
 namespace indet::sim {
 namespace {
 
-/// Neighbour lists reach this many units of length further than contact.
-constexpr double kSkin = 0.05;
+/// Neighbour lists reach as far as two disks come nearer to each other in so many steps, within these bounds
+/// (units of length). Packings at rest have short lists, with few pairs that do not touch. Results do not
+/// depend on it: a pair that does not touch adds 0 to the forces.
+constexpr double kStepsBetweenLists = 300;
+constexpr double kLeastSkin = 0.002;
+constexpr double kGreatestSkin = 0.1;
 
 }  // namespace
 
 ExplicitStepper::ExplicitStepper(World world, const std::vector<ContactState>& contacts, const SpringLaw& law,
                                  double dt)
-    : world_(std::move(world)), law_(law), dt_(dt), neighbours_(kSkin * world_.units().length) {
+    : world_(std::move(world)), law_(law), dt_(dt), neighbours_(suitable_skin()) {
   const int n = world_.size();
-  bodies_.resize(n);
-  forces_.resize(n);
+  bodies_.assign(n + 2, Body{});
+  bodies_[n + 1].x = both(world_.units().length);
+  bool loaded = false;
   for (int i = 0; i < n; ++i) {
-    kicks_.push_back({.per_force = dt / world_.mass[i],
-                      .per_torque = dt * world_.radius[i] * world_.radius[i] / world_.inertia[i]});
-    loads_.push_back({world_.load_x[i], world_.load_y[i], world_.load_torque[i] / world_.radius[i]});
+    bodies_[i].per_force = dt / world_.mass[i];
+    bodies_[i].per_torque = dt * world_.radius[i] * world_.radius[i] / world_.inertia[i];
+    loads_.push_back({Lanes{world_.load_x[i], world_.load_y[i]}, world_.load_torque[i] / world_.radius[i]});
+    loaded = loaded || world_.load_x[i] != 0 || world_.load_y[i] != 0 || world_.load_torque[i] != 0;
   }
-  fall_ = dt * world_.gravity;
-  const auto is_zero = [](const Force& load) { return load.x == 0 && load.y == 0 && load.t == 0; };
-  if (std::all_of(loads_.begin(), loads_.end(), is_zero)) loads_.clear();
+  if (!loaded) loads_.clear();
+  fall_ = Lanes{dt * world_.gravity.x(), dt * world_.gravity.y()};
   neighbours_.rebuild(world_, 0);
   place_springs(contacts);
 }
 
+double ExplicitStepper::suitable_skin() const {
+  const double unit = world_.units().length;
+  return std::clamp(2 * kStepsBetweenLists * dt_ * world_.fastest_speed(), kLeastSkin * unit,
+                    kGreatestSkin * unit);
+}
+
 void ExplicitStepper::load() {
   for (int i = 0; i < world_.size(); ++i) {
-    bodies_[i] = {world_.x[i],
-                  world_.y[i],
-                  world_.vx[i],
-                  world_.vy[i],
-                  world_.radius[i] * world_.omega[i],
-                  world_.radius[i],
-                  0};
+    bodies_[i].x = Lanes{world_.x[i], world_.y[i]};
+    bodies_[i].v = Lanes{world_.vx[i], world_.vy[i]};
+    bodies_[i].turn = Lanes{world_.radius[i] * world_.omega[i], world_.radius[i]};
   }
 }
 
 void ExplicitStepper::store() {
   for (int i = 0; i < world_.size(); ++i) {
-    world_.x[i] = bodies_[i].x;
-    world_.y[i] = bodies_[i].y;
-    world_.vx[i] = bodies_[i].vx;
-    world_.vy[i] = bodies_[i].vy;
-    world_.omega[i] = bodies_[i].s / bodies_[i].r;
-    world_.angle[i] += bodies_[i].rolled / bodies_[i].r;
-    bodies_[i].rolled = 0;
+    Body& body = bodies_[i];
+    world_.x[i] = body.x[0];
+    world_.y[i] = body.x[1];
+    world_.vx[i] = body.v[0];
+    world_.vy[i] = body.v[1];
+    world_.omega[i] = body.turn[0] / world_.radius[i];
+    world_.angle[i] += body.rolled / world_.radius[i];
+    body.rolled = 0;
+  }
+}
+
+void ExplicitStepper::add_loads() {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    bodies_[i].force += loads_[i].force;
+    bodies_[i].t += loads_[i].t;
   }
 }
 
 void ExplicitStepper::place_springs(const std::vector<ContactState>& contacts) {
-  springs_.assign(neighbours_.partners().size(), 0.0);
-  wall_springs_.assign(neighbours_.walls().size(), 0.0);
-  for (const ContactState& contact : contacts) {
-    const bool wall = contact.b < 0;
-    const std::vector<int>& first = wall ? neighbours_.first_wall() : neighbours_.first();
-    const std::vector<int>& partners = wall ? neighbours_.walls() : neighbours_.partners();
-    const auto begin = partners.begin() + first[contact.a];
-    const auto end = partners.begin() + first[contact.a + 1];
-    const auto found = std::lower_bound(begin, end, wall ? -contact.b - 1 : contact.b);
-    (wall ? wall_springs_ : springs_)[found - partners.begin()] = contact.spring;
+  pairs_.clear();
+  wall_pairs_.clear();
+  springs_.clear();
+  wall_springs_.clear();
+  auto contact = contacts.begin();
+  const auto spring_of = [&](int a, int b) {
+    if (contact == contacts.end() || contact->a != a || contact->b != b) return 0.0;
+    return (contact++)->spring;
+  };
+  const int n = world_.size();
+  for (int i = 0; i < n; ++i) {
+    for (const int w : neighbours_.walls_near(i)) {
+      wall_pairs_.push_back({i, w});
+      wall_springs_.push_back(spring_of(i, -w - 1));
+    }
+    for (const int j : neighbours_.disks_near(i)) {
+      pairs_.push_back({&bodies_[i], &bodies_[j]});
+      springs_.push_back(spring_of(i, j));
+    }
+  }
+  if (pairs_.size() % 2 == 1) {
+    pairs_.push_back({&bodies_[n], &bodies_[n + 1]});
+    springs_.push_back(0);
   }
 }
 
 void ExplicitStepper::refresh_neighbours() {
-  // Positions only: the sums behind the angles must not depend on when lists are made.
+  // Not the angles: the sums behind them must not depend on when lists are made.
   for (int i = 0; i < world_.size(); ++i) {
-    world_.x[i] = bodies_[i].x;
-    world_.y[i] = bodies_[i].y;
-  }
-  const std::vector<ContactState> touching = state();
-  if (neighbours_.update(world_, 0)) {
-    place_springs(touching);
-    path_ = 0;
-    return;
+    world_.x[i] = bodies_[i].x[0];
+    world_.y[i] = bodies_[i].x[1];
+    world_.vx[i] = bodies_[i].v[0];
+    world_.vy[i] = bodies_[i].v[1];
   }
   path_ = neighbours_.farthest_move(world_);
+  if (path_ <= neighbours_.skin() / 2) return;
+  const std::vector<ContactState> touching = state();
+  neighbours_.set_skin(suitable_skin());
+  neighbours_.rebuild(world_, 0);
+  place_springs(touching);
+  path_ = 0;
 }
 
 std::vector<ContactState> ExplicitStepper::state() const {
   std::vector<ContactState> contacts;
+  std::size_t next = 0;
+  std::size_t next_wall = 0;
   for (int i = 0; i < world_.size(); ++i) {
-    for (int k = neighbours_.first_wall()[i]; k < neighbours_.first_wall()[i + 1]; ++k) {
-      contacts.push_back(
-          {.a = i, .b = -neighbours_.walls()[k] - 1, .mu = world_.friction.wall, .spring = wall_springs_[k]});
+    for (; next_wall < wall_pairs_.size() && wall_pairs_[next_wall].disk == i; ++next_wall) {
+      contacts.push_back({.a = i,
+                          .b = -wall_pairs_[next_wall].wall - 1,
+                          .mu = world_.friction.wall,
+                          .spring = wall_springs_[next_wall]});
     }
-    for (int k = neighbours_.first()[i]; k < neighbours_.first()[i + 1]; ++k) {
-      contacts.push_back(
-          {.a = i, .b = neighbours_.partners()[k], .mu = world_.friction.disk, .spring = springs_[k]});
+    for (; next < pairs_.size() && pairs_[next].a == &bodies_[i]; ++next) {
+      contacts.push_back({.a = i,
+                          .b = static_cast<int>(pairs_[next].b - bodies_.data()),
+                          .mu = world_.friction.disk,
+                          .spring = springs_[next]});
     }
   }
   return elastic_forces(world_, contacts, law_.k);
@@ -102,100 +138,110 @@ std::vector<ContactState> ExplicitStepper::state() const {
 std::vector<ContactState> ExplicitStepper::forces() const { return state(); }
 
 template <bool kFriction>
-void ExplicitStepper::add_forces() {
+void ExplicitStepper::add_wall_forces() {
   const SpringLaw law = law_;
-  const double mu = world_.friction.disk;
-  const double mu_wall = world_.friction.wall;
-  const int* first = neighbours_.first().data();
-  const int* partners = neighbours_.partners().data();
-  const int* first_wall = neighbours_.first_wall().data();
-  const int n = world_.size();
-  const double dt = dt_;
-  const Body* bodies = bodies_.data();
-  Force* forces = forces_.data();
+  for (std::size_t k = 0; k < wall_pairs_.size(); ++k) {
+    const Wall& wall = world_.walls[wall_pairs_[k].wall];
+    Body& a = bodies_[wall_pairs_[k].disk];
+    const double nx = wall.normal.x();
+    const double ny = wall.normal.y();
+    const double gap = (a.x[0] - wall.point.x()) * nx + (a.x[1] - wall.point.y()) * ny - a.turn[1];
+    if (gap >= 0) {
+      wall_springs_[k] = 0;
+      continue;
+    }
+    const double R = law.normal_force(gap, nx * a.v[0] + ny * a.v[1]);
+    a.force += Lanes{R * nx, R * ny};
+    if constexpr (kFriction) {
+      const double u_t = ny * a.v[0] - nx * a.v[1] + a.turn[0];
+      const auto [T, spring, sliding] =
+          law.tangential_force(wall_springs_[k] + dt_ * u_t, u_t, world_.friction.wall * R);
+      wall_springs_[k] = spring;
+      a.force += Lanes{T * ny, -T * nx};
+      a.t += T;
+    }
+  }
+}
+
+/// The law of force_law.h for two pairs at a time and without branches: which pairs touch and which slide
+/// changes from pair to pair, so that a processor could not guess it.
+template <bool kFriction>
+void ExplicitStepper::add_pair_forces() {
+  const Lanes zero = both(0);
+  const Lanes k = both(law_.k);
+  const Lanes gamma = both(law_.gamma);
+  const Lanes per_k = both(1 / law_.k);
+  const Lanes mu = both(world_.friction.disk);
+  const Lanes dt = both(dt_);
   double* springs = springs_.data();
-  for (int i = 0; i < n; ++i) {
-    const Body a = bodies[i];
-    Force sum = forces[i];
-    for (int k = first_wall[i]; k < first_wall[i + 1]; ++k) {
-      const Wall& wall = world_.walls[neighbours_.walls()[k]];
-      const double nx = wall.normal.x();
-      const double ny = wall.normal.y();
-      const double gap = (a.x - wall.point.x()) * nx + (a.y - wall.point.y()) * ny - a.r;
-      if (gap >= 0) {
-        wall_springs_[k] = 0;
-        continue;
-      }
-      const double R = law.normal_force(gap, nx * a.vx + ny * a.vy);
-      sum.x += R * nx;
-      sum.y += R * ny;
-      if constexpr (kFriction) {
-        const double u_t = ny * a.vx - nx * a.vy + a.s;
-        const auto tangential = law.tangential_force(wall_springs_[k] + dt * u_t, u_t, mu_wall * R);
-        wall_springs_[k] = tangential.spring;
-        sum.x += tangential.T * ny;
-        sum.y -= tangential.T * nx;
-        sum.t += tangential.T;
-      }
+  const Pair* pairs = pairs_.data();
+  const std::size_t count = pairs_.size();
+  for (std::size_t p = 0; p < count; p += 2) {
+    Body& a0 = *pairs[p].a;
+    Body& b0 = *pairs[p].b;
+    Body& a1 = *pairs[p + 1].a;
+    Body& b1 = *pairs[p + 1].b;
+    const Lanes d0 = a0.x - b0.x;
+    const Lanes d1 = a1.x - b1.x;
+    const Lanes dx = first_of(d0, d1);
+    const Lanes dy = second_of(d0, d1);
+    const Lanes turn0 = a0.turn + b0.turn;
+    const Lanes turn1 = a1.turn + b1.turn;
+    const Lanes distance = root(dx * dx + dy * dy);
+    const Lanes gap = distance - second_of(turn0, turn1);
+    const LaneMask touching = gap < zero;
+    const Lanes inverse = both(1) / distance;
+    const Lanes nx = dx * inverse;
+    const Lanes ny = dy * inverse;
+    const Lanes u0 = a0.v - b0.v;
+    const Lanes u1 = a1.v - b1.v;
+    const Lanes ux = first_of(u0, u1);
+    const Lanes uy = second_of(u0, u1);
+    const Lanes R = where(touching, larger(-k * gap - gamma * (nx * ux + ny * uy), zero));
+    Lanes fx = R * nx;
+    Lanes fy = R * ny;
+    if constexpr (kFriction) {
+      const Lanes u_t = ny * ux - nx * uy + first_of(turn0, turn1);
+      const Lanes stretch = Lanes{springs[p], springs[p + 1]} + dt * u_t;
+      const Lanes limit = mu * R;
+      const Lanes trial = -k * stretch - gamma * u_t;
+      const Lanes T = smaller(larger(trial, -limit), limit);
+      const Lanes spring = where(touching, T == trial ? stretch : -T * per_k);
+      springs[p] = spring[0];
+      springs[p + 1] = spring[1];
+      fx += T * ny;
+      fy -= T * nx;
+      a0.t += T[0];
+      b0.t += T[0];
+      a1.t += T[1];
+      b1.t += T[1];
     }
-    for (int k = first[i]; k < first[i + 1]; ++k) {
-      const int j = partners[k];
-      const Body& b = bodies[j];
-      const double dx = a.x - b.x;
-      const double dy = a.y - b.y;
-      const double square = dx * dx + dy * dy;
-      const double touching = a.r + b.r;
-      if (square >= touching * touching) {
-        if constexpr (kFriction) springs[k] = 0;
-        continue;
-      }
-      const double distance = std::sqrt(square);
-      const double inverse = 1 / distance;
-      const double nx = dx * inverse;
-      const double ny = dy * inverse;
-      const double ux = a.vx - b.vx;
-      const double uy = a.vy - b.vy;
-      const double R = law.normal_force(distance - touching, nx * ux + ny * uy);
-      double fx = R * nx;
-      double fy = R * ny;
-      if constexpr (kFriction) {
-        const double u_t = ny * ux - nx * uy + a.s + b.s;
-        const auto tangential = law.tangential_force(springs[k] + dt * u_t, u_t, mu * R);
-        springs[k] = tangential.spring;
-        fx += tangential.T * ny;
-        fy -= tangential.T * nx;
-        sum.t += tangential.T;
-        forces[j].t += tangential.T;
-      }
-      sum.x += fx;
-      sum.y += fy;
-      forces[j].x -= fx;
-      forces[j].y -= fy;
-    }
-    forces[i] = sum;
+    const Lanes f0 = first_of(fx, fy);
+    const Lanes f1 = second_of(fx, fy);
+    a0.force += f0;
+    b0.force -= f0;
+    a1.force += f1;
+    b1.force -= f1;
   }
 }
 
 template <bool kFriction>
 double ExplicitStepper::move() {
-  double fastest = 0;
   const double dt = dt_;
-  const double fall_x = fall_.x();
-  const double fall_y = fall_.y();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    Force& force = forces_[i];
-    const Kick& kick = kicks_[i];
-    body.vx += fall_x + kick.per_force * force.x;
-    body.vy += fall_y + kick.per_force * force.y;
+  const Lanes fall = fall_;
+  double fastest = 0;
+  const Body* end = bodies_.data() + world_.size();
+  for (Body* body = bodies_.data(); body != end; ++body) {
+    body->v += fall + body->per_force * body->force;
+    body->x += dt * body->v;
+    body->force = both(0);
     if constexpr (kFriction) {
-      body.s += kick.per_torque * force.t;
-      body.rolled += dt * body.s;
+      body->turn[0] += body->per_torque * body->t;
+      body->rolled += dt * body->turn[0];
+      body->t = 0;
     }
-    force = loads_.empty() ? Force{0, 0, 0} : loads_[i];
-    body.x += dt * body.vx;
-    body.y += dt * body.vy;
-    fastest = std::max(fastest, body.vx * body.vx + body.vy * body.vy);
+    const Lanes squares = body->v * body->v;
+    fastest = std::max(fastest, squares[0] + squares[1]);
   }
   return fastest;
 }
@@ -204,18 +250,15 @@ template <bool kFriction>
 void ExplicitStepper::advance_as(int steps) {
   for (int i = 0; i < steps; ++i) {
     if (path_ > neighbours_.skin() / 2) refresh_neighbours();
-    add_forces<kFriction>();
+    add_loads();
+    add_wall_forces<kFriction>();
+    add_pair_forces<kFriction>();
     path_ += dt_ * std::sqrt(move<kFriction>());
   }
 }
 
 void ExplicitStepper::advance(int steps) {
   load();
-  if (loads_.empty()) {
-    std::fill(forces_.begin(), forces_.end(), Force{0, 0, 0});
-  } else {
-    forces_ = loads_;
-  }
   if (world_.friction.any()) {
     advance_as<true>(steps);
   } else {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "indet/sim/force_law.h"
+#include "indet/sim/lanes.h"
 #include "indet/sim/neighbours.h"
 #include "indet/sim/stepper.h"
 
@@ -27,32 +28,48 @@ class ExplicitStepper : public Stepper {
   StepperReport report() const override { return report_; }
 
  private:
+  /// All that the loops need of a disk, side by side, in pairs of doubles (lanes.h). 96 bytes.
   struct Body {
-    double x, y, vx, vy;
-    double s;  ///< Surface speed r ω.
-    double r;
-    double rolled;  ///< Arc length turned since the angle was last stored.
+    Lanes x{0, 0};
+    Lanes v{0, 0};
+    Lanes turn{0, 0};   ///< Surface speed r ω, and r.
+    Lanes force{0, 0};  ///< Sum.
+    double t = 0;       ///< Sum of tangential forces: the torque divided by r.
+    // What one step adds to the velocities per unit of force.
+    double per_force = 0, per_torque = 0;
+    double rolled = 0;  ///< Arc length turned since the angle was last stored.
   };
-  struct Force {
-    double x, y, t;  ///< Sums of forces; t: of tangential forces, the torque divided by r.
+  /// Two disks that may touch. Pointers into bodies_, which never grows: indices would cost the pair loop a
+  /// sixth of its instructions.
+  struct Pair {
+    Body* a;
+    Body* b;
   };
-  /// What one step adds to the velocities per unit of force.
-  struct Kick {
-    double per_force, per_torque;
+  struct WallPair {
+    int disk, wall;
+  };
+  struct Load {
+    Lanes force;
+    double t;
   };
 
   template <bool kFriction>
   void advance_as(int steps);
   template <bool kFriction>
-  void add_forces();
+  void add_wall_forces();
+  template <bool kFriction>
+  void add_pair_forces();
   /// Kick and drift; returns the largest |v|².
   template <bool kFriction>
   double move();
   void load();
   void store();
+  void add_loads();
+  /// The skin that the present speeds ask for.
+  double suitable_skin() const;
   /// Makes new neighbour lists if they may have become incomplete; springs move to their new places.
   void refresh_neighbours();
-  /// Copies the springs of the contacts, sorted as in state(), to the lists' places.
+  /// Takes the lists over and gives each pair the spring of its contact; sorted as in state().
   void place_springs(const std::vector<ContactState>& contacts);
 
   World world_;
@@ -60,12 +77,13 @@ class ExplicitStepper : public Stepper {
   double dt_;
   NeighbourList neighbours_;
   double path_ = 0;  ///< No disk has moved further than this since the lists were made.
+  /// The last two rows belong to no disk and never touch: they fill up pairs_, whose number is even.
   std::vector<Body> bodies_;
-  std::vector<Force> forces_;
-  std::vector<Kick> kicks_;
-  Vector2 fall_{0, 0};                          ///< What gravity adds to the velocity in a step.
-  std::vector<Force> loads_;                    ///< Of each disk; empty if there are none.
-  std::vector<double> springs_, wall_springs_;  ///< One for each listed pair.
+  Lanes fall_{0, 0};         ///< What gravity adds to the velocity in a step.
+  std::vector<Load> loads_;  ///< Of each disk; empty if there are none.
+  std::vector<Pair> pairs_;
+  std::vector<WallPair> wall_pairs_;
+  std::vector<double> springs_, wall_springs_;  ///< One for each pair.
   StepperReport report_;
 };
 

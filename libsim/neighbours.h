@@ -43,6 +43,8 @@ class NeighbourList {
   const std::vector<int>& walls() const { return walls_; }
 
   double skin() const { return skin_; }
+  /// For the lists that are made from now on.
+  void set_skin(double skin) { skin_ = skin; }
 
  private:
   double skin_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "indet/base/error.h"
 
@@ -77,19 +76,22 @@ World world_of(const Packing& packing, const Friction& friction) {
   return world;
 }
 
-Friction friction_of(const Packing& packing, const Friction& fallback) {
+Friction friction_of(const Packing& packing, const FrictionChoice& choice) {
   std::optional<double> disk;
   std::optional<double> wall;
   for (const Contact& contact : packing.contacts) {
-    std::optional<double>& seen = contact.b.is_wall() ? wall : disk;
+    const bool at_wall = contact.b.is_wall();
+    if (at_wall ? choice.wall.has_value() : choice.disk.has_value()) continue;
+    std::optional<double>& seen = at_wall ? wall : disk;
     if (seen && *seen != contact.mu) {
-      throw InputError(
-          fmt::format("contacts of one kind have different friction coefficients ({} and {}); give --mu",
-                      *seen, contact.mu));
+      throw InputError(fmt::format("contacts {} have different friction coefficients ({} and {}); give {}",
+                                   at_wall ? "with walls" : "of two disks", *seen, contact.mu,
+                                   at_wall ? "--wall-mu" : "--mu"));
     }
     seen = contact.mu;
   }
-  return {disk.value_or(fallback.disk), wall.value_or(fallback.wall)};
+  const Friction usual;
+  return {choice.disk.value_or(disk.value_or(usual.disk)), choice.wall.value_or(wall.value_or(usual.wall))};
 }
 
 Packing packing_of(const World& world, const std::vector<ContactState>& contacts) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "indet/packing/packing.h"
@@ -71,9 +72,15 @@ struct ContactState {
 /// Disks, walls and gravity of a packing; friction is `friction`.
 World world_of(const Packing& packing, const Friction& friction);
 
-/// The friction that a packing's contacts have; coefficients that no contact shows are taken from `fallback`.
-/// Throws InputError if two contacts of the same kind differ: the simulators know one coefficient a kind.
-Friction friction_of(const Packing& packing, const Friction& fallback);
+/// Friction coefficients that somebody asks for; what is empty is left to the packing.
+struct FrictionChoice {
+  std::optional<double> disk, wall;
+};
+
+/// The friction that a packing's contacts have, unless `choice` names another; a coefficient that no contact
+/// shows is that of `Friction`. Throws InputError if two contacts of a kind that `choice` leaves open differ:
+/// the simulators know one coefficient a kind.
+Friction friction_of(const Packing& packing, const FrictionChoice& choice = {});
 
 /// Disks, walls and contacts as a packing; normals and gaps are recomputed from the positions.
 Packing packing_of(const World& world, const std::vector<ContactState>& contacts);

@@ -16,8 +16,7 @@ inline constexpr double kNormalLength = 1e-6;
 inline constexpr double kNormalDirection = 1e-4;
 
 /// A singular value of the dimensionless contact matrix below kRankReject · σ_max counts as zero; one between
-/// the two bounds makes the rank ambiguous, and every result of that packing `imprecise`. Rounding alone
-/// gives about 1e-15.
+/// kNoise and kRankAccept makes the rank ambiguous, and every result of that packing `imprecise`.
 inline constexpr double kRankReject = 1e-13;
 inline constexpr double kRankAccept = 1e-11;
 
@@ -26,9 +25,16 @@ inline constexpr double kRankAccept = 1e-11;
 inline constexpr double kPrimalResidual = 1e-10;
 inline constexpr double kDualResidual = 1e-9;
 
-/// A half-plane whose slack cannot exceed this (mg) anywhere in F holds with equality everywhere (it lowers
-/// dim F); F is empty if some slack must be below minus this.
-inline constexpr double kImplicitEquality = 1e-9;
+/// A half-plane whose slack cannot exceed this (mg, relative to max(1, ‖F1‖∞)) anywhere in F holds with
+/// equality everywhere (it lowers dim F); F is empty if some slack must be below minus this. Parts of a
+/// packing may be this much lighter than the mean. Between this and kNoise the decision is doubtful, and
+/// every result `imprecise`.
+inline constexpr double kImplicitEquality = 1e-12;
+
+/// Rounding level of dimensionless quantities of order one. A rejected singular value (relative to σ_max), an
+/// implicit equality or a ray that is off by more than this is not clearly one. Rounding alone gives about
+/// 1e-16 … 1e-15.
+inline constexpr double kNoise = 1e-14;
 
 /// GLPK's own feasibility and optimality tolerances. Its answer is only a proposal (a basis), from which we
 /// recompute.

@@ -63,6 +63,8 @@ void write_parameters(Hdf5File& file, const Packing& packing) {
   file.set_attribute("/parameters", "mg", packing.force_unit());
   file.set_attribute("/parameters", "force_unit", packing.named_force_unit);
   file.set_attribute("/parameters", "r_max", packing.max_radius());
+  file.set_attribute("/parameters", "Lx", packing.origin.width);
+  file.set_attribute("/parameters", "Ly", packing.origin.height);
 }
 
 void write_disks(Hdf5File& file, const std::vector<Disk>& disks) {
@@ -247,6 +249,10 @@ Packing read_packing_part(const Hdf5File& file) {
   packing.origin.protocol = file.string_attribute("/parameters", "protocol");
   packing.origin.seed = file.integer_attribute("/parameters", "seed");
   packing.origin.config = file.string_attribute("/parameters", "config");
+  if (file.has_attribute("/parameters", "Lx")) {
+    packing.origin.width = file.double_attribute("/parameters", "Lx");
+    packing.origin.height = file.double_attribute("/parameters", "Ly");
+  }
   const auto gravity = file.doubles_attribute("/parameters", "gravity", 2);
   packing.gravity = {gravity[0], gravity[1]};
   packing.named_force_unit = file.double_attribute("/parameters", "force_unit");

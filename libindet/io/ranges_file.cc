@@ -31,6 +31,7 @@ void for_each_integer(Ranges& r, Visit visit) {
   visit("dim", r.dim);
   visit("blocks", r.blocks);
   visit("rank_ambiguous", r.rank_ambiguous);
+  visit("doubtful", r.doubtful);
   visit("sliding", r.sliding);
   visit("non_transmitting", r.non_transmitting);
   visit("objectives", r.objectives);

@@ -46,7 +46,8 @@ void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const 
   result.smallest_accepted =
       result.rank > 0 ? sigma[result.rank - 1] : std::numeric_limits<double>::infinity();
   result.largest_rejected = result.rank < sigma.size() ? sigma[result.rank] : 0;
-  result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale;
+  result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
+                     result.largest_rejected > tolerance::kNoise * scale;
 
   const Eigen::VectorXd projected = svd.matrixU().leftCols(result.rank).transpose() * -wrench;
   result.particular = svd.matrixV().leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
@@ -75,7 +76,7 @@ NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Ei
   result.smallest_accepted = qr.smallest_accepted();
   result.largest_rejected = qr.dropped_norm();
   result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
-                     result.largest_rejected > tolerance::kRankReject * scale;
+                     result.largest_rejected > tolerance::kNoise * scale;
   if (result.ambiguous && std::max(matrix.rows(), matrix.cols()) <= kDenseLimit) {
     decide_by_singular_values(matrix, wrench, scale, result);
   } else {

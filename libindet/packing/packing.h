@@ -80,6 +80,8 @@ struct Origin {
   std::string protocol;    ///< "cd1", "md2", "import csv", …
   std::int64_t seed = -1;  ///< −1: no seed.
   std::string config;      ///< The resolved configuration (TOML) that made it.
+  /// Lx, Ly: of the box, or the grid, that it was simulated in; 0: not known.
+  double width = 0, height = 0;
 };
 
 struct Packing {

@@ -41,6 +41,23 @@ FeasibleSet feasible_set(const ContactMatrix& contacts, const NullSpace& null_sp
   return set;
 }
 
+/// True if the sign of t, or that it is zero, could be the work of rounding.
+bool is_doubtful(const InteriorPoint& interior, bool is_zero, double scale) {
+  if (is_zero) return std::max(std::abs(interior.slack), interior.infeasibility) > tolerance::kNoise * scale;
+  return interior.infeasibility > 0.5 * std::abs(interior.slack);
+}
+
+/// Multiplies a virtual motion back: the load does work, and no open edge of a contact resists by more than
+/// rounding.
+bool proves_emptiness(const ContactMatrix& contacts, const Eigen::VectorXd& motion) {
+  const double largest = motion.lpNorm<Eigen::Infinity>();
+  const double power = motion.dot(contacts.wrench) / largest;
+  const Eigen::VectorXd along_edges = contacts.edge_matrix.transpose() * (motion / largest);
+  const double resistance = along_edges.size() > 0 ? std::max(0.0, -along_edges.minCoeff()) : 0;
+  // What the load could do against that resistance must be small beside what it does.
+  return resistance * contacts.wrench.lpNorm<1>() < 1e-3 * power;
+}
+
 /// A full-dimensional set with a point in its interior.
 struct InteriorSet {
   FeasibleSet set;
@@ -55,6 +72,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
   for (;;) {
     ContactMatrix& contacts = polytope.contacts;
     polytope.rank_ambiguous = polytope.rank_ambiguous || null_space.ambiguous;
+    polytope.doubtful = polytope.doubtful || null_space.ambiguous;
     if (null_space.unbalanced.size() > 0) {
       set_motion(packing, contacts, null_space.unbalanced, polytope);
       return {};
@@ -64,11 +82,17 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
     polytope.pivots += interior.pivots;
     ++polytope.solves;
     polytope.interior_slack = interior.slack;
-    if (interior.slack > tolerance::kImplicitEquality) return InteriorSet{set, interior.z};
-    if (interior.slack < -tolerance::kImplicitEquality) {
+    const double largest =
+        null_space.particular.size() > 0 ? null_space.particular.lpNorm<Eigen::Infinity>() : 0.0;
+    const double scale = std::max(1.0, largest);
+    const bool is_zero = std::abs(interior.slack) <= tolerance::kImplicitEquality * scale;
+    polytope.doubtful = polytope.doubtful || is_doubtful(interior, is_zero, scale);
+    if (!is_zero && interior.slack > 0) return InteriorSet{set, interior.z};
+    if (!is_zero) {
       const Eigen::VectorXd velocities = contacts.to_edges.transpose() * interior.multipliers;
       Eigen::VectorXd motion = motion_from_contacts(contacts.matrix, velocities);
       if (motion.dot(contacts.wrench) < 0) motion = -motion;
+      polytope.doubtful = polytope.doubtful || !proves_emptiness(contacts, motion);
       set_motion(packing, contacts, motion, polytope);
       return {};
     }
@@ -132,8 +156,11 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
     polytope.lightest = set.offset;
     return polytope;
   }
-  polytope.ray = find_recession_ray(set, options, polytope.pivots);
+  RecessionRay ray = find_recession_ray(set, options);
+  polytope.pivots += ray.pivots;
   ++polytope.solves;
+  polytope.doubtful = polytope.doubtful || ray.infeasibility > ray.noise;
+  polytope.ray = std::move(ray.x);
   polytope.status = polytope.ray.size() > 0 ? PolytopeStatus::kUnbounded : PolytopeStatus::kBounded;
   const Vertex lightest = find_lightest_vertex(polytope.contacts, *interior, options, polytope);
   polytope.lightest = lightest.x;

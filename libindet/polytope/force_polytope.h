@@ -43,8 +43,11 @@ struct ForcePolytope {
   ContactMatrix contacts;       ///< the problem with closed edges removed
   int dim = -1;                 ///< dim F; −1 if empty
   bool rank_ambiguous = false;  ///< of either null space
-  double interior_slack = 0;    ///< t of the interior point (mg): every x is at least this; capped at 1
-  Eigen::VectorXd lightest;     ///< x of the state of smallest total normal force (all edges of `contacts`)
+  /// Some decision (rank, emptiness, dimension, boundedness) lies within rounding: results may be wrong by
+  /// order one.
+  bool doubtful = false;
+  double interior_slack = 0;  ///< t of the interior point (mg): every x is at least this; capped at 1
+  Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `contacts`)
   std::vector<PolytopeBlock> blocks;
   Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `contacts`); empty if bounded
   /// If empty: virtual velocity (x, y, rω) of each disk under which the load does positive work while no

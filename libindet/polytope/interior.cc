@@ -1,6 +1,7 @@
 #include "indet/polytope/interior.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
@@ -8,6 +9,24 @@
 #include "indet/lp/walk.h"
 
 namespace indet {
+namespace {
+
+/// Offsets are multiplied by this for the solver, whose tolerances are partly absolute: so parts of a packing
+/// that are much lighter than the mean are still seen.
+constexpr double kMagnification = 1e4;
+
+/// Maximises by the dual formulation, and where that fails by the explicit one.
+LpAnswer maximise_robustly(const FeasibleSet& set, const Objective& objective, const Basis& start,
+                           const LpOptions& options) {
+  LpAnswer answer = LpSolver(set, Formulation::kDual, options).maximise(objective, start);
+  if (answer.status == LpStatus::kOptimal) return answer;
+  const std::int64_t pivots = answer.pivots;
+  answer = LpSolver(set, Formulation::kNullSpace, options).maximise(objective, start);
+  answer.pivots += pivots;
+  return answer;
+}
+
+}  // namespace
 
 InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& options) {
   const int d = set.dim();
@@ -25,21 +44,24 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
   lifted.slope.topLeftCorner(count, d) = set.slope;
   lifted.slope.col(d).setConstant(-1);
   lifted.offset.resize(count + 1);
-  lifted.offset << set.offset, 1;
+  lifted.offset << kMagnification * set.offset, kMagnification;
   Objective height;
   height.along_z = Eigen::VectorXd::Unit(d + 1, d);
 
-  LpSolver solver(lifted, Formulation::kDual, options);
   Eigen::VectorXd origin = Eigen::VectorXd::Zero(d + 1);
-  origin[d] = std::min(1.0, set.offset.minCoeff());
-  const LpAnswer answer = solver.maximise(height, walk_to_vertex(lifted, origin, height.along_z));
+  origin[d] = lifted.offset.minCoeff();
+  const Basis start = walk_to_vertex(lifted, origin, height.along_z);
+  const LpAnswer answer = maximise_robustly(lifted, height, start, options);
+  const bool solved = answer.status == LpStatus::kOptimal;
   result.pivots = answer.pivots;
-  if (answer.status != LpStatus::kOptimal) {
+  // Any point with t > 0 is as good as the optimum; the walk may have found one where the solver gave up.
+  const Vertex vertex = compute_vertex(lifted, solved ? answer.basis : start);
+  if (!solved && !(vertex.z[d] > 0))
     throw LibraryError("the linear program for an interior point could not be solved");
-  }
-  const Vertex vertex = compute_vertex(lifted, answer.basis);
-  result.z = vertex.z.head(d);
-  result.slack = vertex.z[d];
+  result.z = vertex.z.head(d) / kMagnification;
+  result.slack = vertex.z[d] / kMagnification;
+  result.infeasibility = vertex.infeasibility() / kMagnification;
+  if (!solved) return result;
   const Eigen::VectorXd multipliers = vertex.multipliers(height.along_z);
   for (int i = 0; i <= d; ++i) {
     const int k = vertex.basis[static_cast<std::size_t>(i)];
@@ -57,20 +79,23 @@ FeasibleSet truncated_recession_cone(const FeasibleSet& set) {
   return cone;
 }
 
-Eigen::VectorXd find_recession_ray(const FeasibleSet& set, const LpOptions& options, std::int64_t& pivots) {
+RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options) {
   const FeasibleSet cone = truncated_recession_cone(set);
   Objective total;
   total.along_z = set.slope.colwise().sum().transpose();
-  LpSolver solver(cone, Formulation::kNullSpace, options);
-  const LpAnswer answer =
-      solver.maximise(total, walk_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z));
-  pivots += answer.pivots;
-  if (answer.status != LpStatus::kOptimal) {
+  const Basis start = walk_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z);
+  const LpAnswer answer = maximise_robustly(cone, total, start, options);
+  if (answer.status != LpStatus::kOptimal)
     throw LibraryError("the linear program for a recession ray could not be solved");
-  }
   const Vertex vertex = compute_vertex(cone, answer.basis);
-  if (vertex.z.dot(total.along_z) < 0.5) return {};
-  return vertex.x.head(set.inequalities());
+  RecessionRay ray;
+  ray.pivots = answer.pivots;
+  if (vertex.z.dot(total.along_z) < 0.5) return ray;
+  ray.x = vertex.x.head(set.inequalities());
+  ray.infeasibility = vertex.infeasibility();
+  ray.noise =
+      std::max(tolerance::kNoise, 10 * std::numeric_limits<double>::epsilon() / vertex.active.rcond());
+  return ray;
 }
 
 }  // namespace indet

@@ -16,6 +16,7 @@ struct InteriorPoint {
   /// y ≥ 0, Σy = 1, slopeᵀ y = 0: y·x is the same number t everywhere. t < 0 proves emptiness (Farkas); t = 0
   /// proves that every x_k with y_k > 0 is 0 everywhere. Zero if t reached its cap.
   Eigen::VectorXd multipliers;
+  double infeasibility = 0;  ///< by how much the recomputed point misses its own inequalities x ≥ t
   std::int64_t pivots = 0;
 };
 
@@ -26,8 +27,16 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
 /// the set, then the cut.
 FeasibleSet truncated_recession_cone(const FeasibleSet& set);
 
-/// A direction x ≥ 0, Σx = 1 in which the set is unbounded, as Σx over the recession cone {z : slope · z ≥ 0}
-/// is maximised; empty if there is none.
-Eigen::VectorXd find_recession_ray(const FeasibleSet& set, const LpOptions& options, std::int64_t& pivots);
+/// A direction in which a set is unbounded.
+struct RecessionRay {
+  Eigen::VectorXd x;  ///< x ≥ 0, Σx = 1; empty if the set is bounded
+  double infeasibility =
+      0;             ///< max(0, −min x) as recomputed: positive where the set is unbounded but for a hair
+  double noise = 0;  ///< what rounding alone can make of the infeasibility, from the condition of the vertex
+  std::int64_t pivots = 0;
+};
+
+/// Maximises Σx over the truncated recession cone. Throws LibraryError if the linear program fails.
+RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options);
 
 }  // namespace indet

@@ -83,7 +83,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
 /// Switches off what is unbounded: whatever grows along some direction of the block's recession cone.
 void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, const Eigen::VectorXd& weight,
                        BlockComponents& block, StateTable& states, std::size_t number, ForceRanges& ranges) {
-  if (find_recession_ray(set, options.lp, ranges.pivots).size() == 0) return;
+  if (find_recession_ray(set, options.lp).x.size() == 0) return;
   const FeasibleSet cone = truncated_recession_cone(set);
   SearchOptions cone_options = options;
   cone_options.formulation = Formulation::kDual;
@@ -106,10 +106,11 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
       if (!grows) return;
       wanted = false;
       ranges.value(contact.value(), column) = infinite;
-      ranges.outcome(contact.value(), column) = Outcome::kUnbounded;
       const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
+      const bool is_ray = end.infeasibility() <= tolerance::kPrimalResidual;
+      ranges.outcome(contact.value(), column) = is_ray ? Outcome::kUnbounded : Outcome::kImprecise;
       ranges.ray(contact.value(), column) = states.add_ray(number, end.x.head(set.inequalities()));
-      ranges.primal_residual(contact.value(), column) = 0;
+      ranges.primal_residual(contact.value(), column) = end.infeasibility();
       ranges.dual_residual(contact.value(), column) = extremum.dual_residual;
     };
     mark(block.components[c].minimise, growth.minimum[c], is_tangential ? kMinT : kMinR, -kInfinity);
@@ -175,6 +176,7 @@ void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
   ranges.smallest_accepted = null_space.smallest_accepted;
   ranges.largest_rejected = null_space.largest_rejected;
   ranges.rank_ambiguous = polytope.rank_ambiguous;
+  ranges.doubtful = polytope.doubtful;
   ranges.force_unit = polytope.natural.force_unit;
   ranges.motion = polytope.motion;
   ranges.solves = polytope.solves;
@@ -183,9 +185,9 @@ void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
 
 }  // namespace
 
-Formulation choose_formulation(int dim, int edges) {
-  static_cast<void>(edges);
-  return dim <= 200 ? Formulation::kDual : Formulation::kEdge;
+Formulation choose_formulation(int dim) {
+  constexpr int kCrossOver = 30;
+  return dim <= kCrossOver ? Formulation::kDual : Formulation::kEdge;
 }
 
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
@@ -198,12 +200,10 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
 
   SearchOptions search;
   int largest = 0;
-  int edges = 0;
   for (const PolytopeBlock& block : polytope.blocks) {
     largest = std::max(largest, block.set.dim());
-    edges = std::max(edges, block.set.inequalities());
   }
-  search.formulation = options.formulation.value_or(choose_formulation(largest, edges));
+  search.formulation = options.formulation.value_or(choose_formulation(largest));
   search.lp = options.lp;
   search.threads = options.threads;
   search.canonical_states = options.canonical_states;

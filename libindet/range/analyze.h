@@ -22,7 +22,7 @@ struct AnalyzeOptions {
 /// residuals. Precondition: find_defect(packing) is empty. Throws Interrupted, LibraryError.
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options = {});
 
-/// The formulation that is fastest for a polytope of this size (docs/decisions/formulation.md).
-Formulation choose_formulation(int dim, int edges);
+/// The formulation that is fastest for a block of this dimension (docs/decisions/formulation.md).
+Formulation choose_formulation(int dim);
 
 }  // namespace indet

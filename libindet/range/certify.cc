@@ -1,6 +1,7 @@
 #include "indet/range/certify.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "indet/base/tolerances.h"
 #include "indet/contact/contact_matrix.h"
@@ -41,11 +42,11 @@ void certify(const Packing& packing, ForceRanges& ranges) {
         ranges.primal_residual(i, column) = primal;
         if (primal > tolerance::kPrimalResidual || dual > tolerance::kDualResidual)
           outcome = Outcome::kImprecise;
-      } else if (outcome == Outcome::kUnbounded) {
+      } else if (std::isinf(ranges.value(i, column))) {
         ranges.lower(i, column) = ranges.upper(i, column) = ranges.value(i, column);
       }
       const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
-      if (has_value && ranges.rank_ambiguous) outcome = Outcome::kImprecise;
+      if (has_value && ranges.doubtful) outcome = Outcome::kImprecise;
       if (has_value) {
         ranges.worst_primal_residual =
             std::max(ranges.worst_primal_residual, ranges.primal_residual(i, column));

@@ -49,6 +49,9 @@ struct ForceRanges {
   double smallest_accepted = kNaN;
   double largest_rejected = kNaN;
   bool rank_ambiguous = false;
+  /// Some decision about F (rank, emptiness, dimension, boundedness) lies within rounding: every result is
+  /// imprecise.
+  bool doubtful = false;
   double residual = kNaN;    ///< Largest ‖cF + w‖∞ over the stored states, in force units.
   double force_unit = kNaN;  ///< mg in the scene's units.
   int sliding =

@@ -93,7 +93,7 @@ class Samples(unittest.TestCase):
         attrs = self.file["equilibrium"].attrs
         expected = {
             "status": "unbounded", "unknowns": 9, "equations": 8, "rank": 6, "nullity": 4, "dim": 3, "blocks": 2,
-            "rank_gap": 1e12, "smallest_accepted": 0.25, "largest_rejected": 1e-16, "rank_ambiguous": 1,
+            "rank_gap": 1e12, "smallest_accepted": 0.25, "largest_rejected": 1e-16, "rank_ambiguous": 1, "doubtful": 1,
             "residual": 1e-14, "force_unit": 4, "sliding": 1, "non_transmitting": 0, "objectives": 20,
             "determined": 2, "certified": 12, "imprecise": 3, "failed": 1, "unbounded": 4,
             "worst_primal_residual": 4.3e-14, "worst_dual_residual": 2.5e-15,

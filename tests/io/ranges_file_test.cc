@@ -119,6 +119,7 @@ TEST(RangesFile, EveryFieldComesBack) {
   EXPECT_EQ(read.smallest_accepted, written.smallest_accepted);
   EXPECT_EQ(read.largest_rejected, written.largest_rejected);
   EXPECT_EQ(read.rank_ambiguous, written.rank_ambiguous);
+  EXPECT_EQ(read.doubtful, written.doubtful);
   EXPECT_EQ(read.residual, written.residual);
   EXPECT_EQ(read.force_unit, written.force_unit);
   EXPECT_EQ(read.sliding, written.sliding);

@@ -65,6 +65,7 @@ inline ForceRanges sample_ranges() {
   ranges.smallest_accepted = 0.25;
   ranges.largest_rejected = 1e-16;
   ranges.rank_ambiguous = true;
+  ranges.doubtful = true;
   ranges.residual = 1e-14;
   ranges.force_unit = 4;
   ranges.sliding = 1;

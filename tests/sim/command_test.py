@@ -59,6 +59,37 @@ class SimulateTest(unittest.TestCase):
             self.assertLess(residual(self.folder / "p.h5"), 1e-11)
         self.run_indet("analyze", "p.h5", "-o", "ranges.h5")
 
+    def test_inspect_shows_simulation_trajectory_and_samples(self):
+        self.run_indet("simulate", "--protocol", "cd1", *SMALL, "--width", "12", "--every", "0.5", "-o", "p.h5")
+        shown = json.loads(self.run_indet("--json", "inspect", "p.h5").stdout)
+        with h5py.File(self.folder / "p.h5") as file:
+            self.assertEqual(shown["simulation"]["steps"], file["simulation"].attrs["steps"])
+            self.assertEqual(shown["simulation"]["reason"], file["simulation"].attrs["reason"])
+            self.assertEqual(shown["trajectory"]["frames"], len(file["trajectory/time"]))
+            self.assertEqual((shown["Lx"], file["parameters"].attrs["Lx"]), (12, 12))
+            self.assertEqual(shown["Ly"], file["parameters"].attrs["Ly"])
+        self.assertNotIn("sampling", shown)
+        self.run_indet("sample", "p.h5", "--samples", "5", "-o", "s.h5")
+        shown = json.loads(self.run_indet("--json", "inspect", "s.h5").stdout)
+        self.assertEqual(shown["sampling"]["samples"], 5)
+        self.assertEqual(shown["Lx"], 12)
+        self.assertNotIn("simulation", shown)
+        text = self.run_indet("inspect", "p.h5").stdout + self.run_indet("inspect", "s.h5").stdout
+        for line in ("contact dynamics", "trajectory", "samples", "Lx = 12"):
+            self.assertIn(line, text)
+
+    def test_unlike_friction_needs_a_choice(self):
+        scene = ["--disks", "15", "--seed", "2", "--mu", "0.4", "--wall-mu", "0.2"]
+        self.run_indet("simulate", "--protocol", "cd1", *scene, "-o", "p.h5")
+        with h5py.File(self.folder / "p.h5", "r+") as file:
+            row = np.flatnonzero(file["contacts/body_b"][()] >= 0)[0]
+            file["contacts/mu"][row] = 0.5
+        done = self.run_indet("simulate", "--protocol", "md2", "--from", "p.h5", "-o", "q.h5", status=3)
+        self.assertIn("--mu", done.stderr)
+        self.run_indet("simulate", "--protocol", "md2", "--from", "p.h5", "--mu", "0.6", "-o", "q.h5")
+        with h5py.File(self.folder / "q.h5") as file:
+            self.assertEqual(set(file["contacts/mu"][()]), {0.6})
+
     def test_scene_file_is_used_and_flags_override_it(self):
         (self.folder / "scene.toml").write_text(
             'disks = 7\ncontainer = "funnel"\nfriction = { disk = 0.5, wall = 0.4 }\n[[wall]]\npoint = [0, -1]\nnormal = [0, 2]\n')

@@ -5,6 +5,7 @@
 
 #include "indet/base/error.h"
 #include "indet/sim/scene_toml.h"
+#include "sim/worlds.h"
 #include "support/temporary_folder.h"
 
 namespace indet::sim {
@@ -130,6 +131,28 @@ TEST(SceneToml, NamesTheLineThatIsWrong) {
 TEST(Container, NamesAreReadBack) {
   EXPECT_EQ(container_from(to_string(Container::kFunnel)), Container::kFunnel);
   EXPECT_THROW(container_from("bucket"), InputError);
+}
+
+/// Two disks on a floor that touch; friction 0.1 and 0.2 with the floor, 0.5 with each other.
+Packing unlike_contacts() {
+  World world = empty_world();
+  add_wall(world, {0, 0}, {0, 1});
+  add_disk(world, {0, 1});
+  add_disk(world, {2, 1});
+  return packing_of(
+      world, {{.a = 0, .b = -1, .mu = 0.1}, {.a = 0, .b = 1, .mu = 0.5}, {.a = 1, .b = -1, .mu = 0.2}});
+}
+
+TEST(FrictionOf, RefusesUnlikeContactsOfAKindThatNobodyChose) {
+  EXPECT_THROW(friction_of(unlike_contacts()), InputError);
+  EXPECT_THROW(friction_of(unlike_contacts(), {.disk = 0.4, .wall = {}}), InputError);
+}
+
+TEST(FrictionOf, ChoiceOverridesContacts) {
+  const Friction friction = friction_of(unlike_contacts(), {.disk = {}, .wall = 0.3});
+  EXPECT_EQ(friction.wall, 0.3);
+  EXPECT_EQ(friction.disk, 0.5);
+  EXPECT_EQ(friction_of(unlike_contacts(), {.disk = 0.7, .wall = 0.3}).disk, 0.7);
 }
 
 }  // namespace
