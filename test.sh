@@ -26,7 +26,10 @@ run_tests() {
 
 case ${1:-} in
   '') check_format && run_tests release ;;
-  --sanitize) run_tests sanitize ;;
+  --sanitize)
+    export LSAN_OPTIONS="suppressions=$PWD/cmake/leak-suppressions.txt:print_suppressions=0"
+    run_tests sanitize
+    ;;
   --long) configure release && cmake --build --preset release -- --quiet && ctest --test-dir build/release --label-regex long --output-on-failure ;;
   --tidy)
     configure release

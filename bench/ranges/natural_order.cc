@@ -7,22 +7,6 @@
 #include "rivals.h"
 
 namespace indet::bench {
-namespace {
-
-std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulation) {
-  switch (formulation) {
-    case Formulation::kNullSpace:
-      return make_null_space_layout(set);
-    case Formulation::kDual:
-      return make_dual_layout(set);
-    case Formulation::kEdge:
-      return make_edge_layout(set);
-  }
-  throw std::logic_error("unknown formulation");
-}
-
-}  // namespace
-
 std::vector<Objective> natural_objectives(const ForcePolytope& polytope, const PolytopeBlock& block) {
   std::map<int, std::pair<std::vector<std::pair<int, double>>, std::vector<std::pair<int, double>>>> contacts;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {

@@ -31,4 +31,7 @@ std::unique_ptr<Layout> make_null_space_layout(const FeasibleSet& set);
 std::unique_ptr<Layout> make_dual_layout(const FeasibleSet& set);
 std::unique_ptr<Layout> make_edge_layout(const FeasibleSet& set);
 
+/// The layout of the given formulation. `set` must outlive it.
+std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulation);
+
 }  // namespace indet

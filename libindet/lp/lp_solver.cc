@@ -6,6 +6,15 @@
 namespace indet {
 namespace {
 
+GlpkProblem::Method other(GlpkProblem::Method method) {
+  return method == GlpkProblem::Method::kPrimal ? GlpkProblem::Method::kDual : GlpkProblem::Method::kPrimal;
+}
+
+/// The rungs of the ladder.
+enum Rung : int { kWarm, kWarmOther, kCold, kPresolved, kRungs };
+
+}  // namespace
+
 std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulation) {
   switch (formulation) {
     case Formulation::kNullSpace:
@@ -17,15 +26,6 @@ std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulat
   }
   throw LibraryError("unknown formulation");
 }
-
-GlpkProblem::Method other(GlpkProblem::Method method) {
-  return method == GlpkProblem::Method::kPrimal ? GlpkProblem::Method::kDual : GlpkProblem::Method::kPrimal;
-}
-
-/// The rungs of the ladder.
-enum Rung : int { kWarm, kWarmOther, kCold, kPresolved, kRungs };
-
-}  // namespace
 
 const char* to_string(Formulation formulation) {
   switch (formulation) {

@@ -167,9 +167,11 @@ States enumerate_states(const Packing& packing) {
   if (count == 0) return result;
   Eigen::MatrixXd spread(count - 1 + corners.rays.rows(), d);
   spread << corners.vertices.bottomRows(count - 1).rowwise() - corners.vertices.row(0), corners.rays;
+  result.dim = 0;
+  if (spread.size() == 0) return result;  // Eigen asserts that what it decomposes has entries
   Eigen::FullPivLU<Eigen::MatrixXd> lu(spread);
   lu.setThreshold(1e-7);
-  result.dim = spread.size() > 0 ? static_cast<int>(lu.rank()) : 0;
+  result.dim = static_cast<int>(lu.rank());
   return result;
 }
 
