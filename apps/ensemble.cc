@@ -132,7 +132,6 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
 
 Command add_ensemble(CLI::App& root) {
   const auto o = std::make_shared<EnsembleCommand>();
-  o->config.sampling.solver.tolerance = 1e-6;
   CLI::App* command = root.add_subcommand(
       "ensemble", "Many packings: simulate, analyze and sample each, and collect the results");
   command->add_option("files", o->files, "Packings that are there already (.h5)")->check(CLI::ExistingFile);
@@ -157,9 +156,9 @@ Command add_ensemble(CLI::App& root) {
       ->check(not_negative())
       ->capture_default_str();
   command
-      ->add_option("--sample-tolerance", o->config.sampling.solver.tolerance,
-                   "Largest change of a force in the last sweep of a solution (mg)")
-      ->check(CLI::PositiveNumber)
+      ->add_option("--sample-distance", o->config.sampling.distance,
+                   "Solve until balanced forces are as close as this (mg)")
+      ->check(not_negative())
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the vertices that the solver lands on");

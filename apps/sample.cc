@@ -70,9 +70,11 @@ Command add_sample(CLI::App& root) {
   command->add_option("--width", perturb.width, "Forces are multiplied by numbers in 1 ± WIDTH")
       ->capture_default_str();
   command->add_option("--seed", perturb.seed, "Seed of the random numbers")->capture_default_str();
+  command->add_option("--distance", perturb.distance, "Solve until balanced forces are as close as this (mg)")
+      ->capture_default_str();
   command
       ->add_option("--tolerance", perturb.solver.tolerance,
-                   "Largest change of a force in the last sweep (mg)")
+                   "... or until no force changes by more than this in a sweep (mg)")
       ->capture_default_str();
   command->add_option("--sweeps", perturb.solver.max_sweeps, "Most sweeps a solution")->capture_default_str();
   command->add_option("-o,--output", options->output, "HDF5 file to write: the packing with /sampling");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "indet/base/error.h"
+#include "indet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -62,6 +63,7 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   file.write_strings("/provenance/failures/unit", units, {"1", "name of the packing"});
   file.write_strings("/provenance/failures/reason", reasons, {"1", "why there is none"});
   seal(file);
+  remove_leftovers(path);
 }
 
 EnsembleContents read_ensemble(const std::filesystem::path& path) {

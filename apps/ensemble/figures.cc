@@ -23,6 +23,10 @@ constexpr const char* kDensity =
     "Probability densities: the integral of each curve is one. Bars: standard error by bootstrap over the "
     "seeds.";
 
+constexpr const char* kCanonical =
+    "where many states attain an optimum, the one of smallest total normal force";
+constexpr const char* kSolver = "where many states attain an optimum, the vertex that the solver lands on";
+
 /// A disk of unit weight in a groove of two walls whose normals make `angle` with the vertical (Fig. 2 of the
 /// paper).
 Packing groove(double angle, double mu) {
@@ -175,24 +179,6 @@ std::vector<Figure> dimensions(const EnsembleTables& tables) {
   return {first, second};
 }
 
-/// A width of bins that is 1, 2 or 5 times a power of ten and makes about `bins` of them.
-double round_width(double span, int bins) {
-  const double raw = std::max(span / bins, 1e-12);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= raw) return factor * power;
-  }
-  return 10 * power;
-}
-
-double largest(const GroupedValues& data) {
-  double high = 0;
-  for (const double value : data.values) {
-    if (std::isfinite(value)) high = std::max(high, value);
-  }
-  return high;
-}
-
 Series curve(const std::string& name, const GroupedValues& data, double width, double high, Mark mark,
              int colour, bool thick, bool logarithmic) {
   const int bins = std::max(1, static_cast<int>(std::ceil(high / width - 1e-9)));
@@ -213,8 +199,7 @@ std::string tail_text(const char* name, const GroupedValues& data, double from) 
 }
 
 std::string maximum_text(const char* name, const GroupedValues& data) {
-  const double high = largest(data);
-  const Estimate maximum = position_of_maximum(data, 0.1 * high, high, round_width(high, 40));
+  const Estimate maximum = main_maximum(data);
   return fmt::format("{}: {:.1f} ± {:.1f} mg. ", name, maximum.value, maximum.error);
 }
 
@@ -271,7 +256,7 @@ Figure global(const Samples& samples, const char* id, const char* title, const c
               const char* tangential, const char* which) {
   const std::vector<Curve> curves = pair_of_methods(samples, normal, tangential);
   const double high = largest_of(curves);
-  std::string finding = "Second maximum. ";
+  std::string finding = "Main maximum beyond a tenth of the largest value. ";
   for (const Curve& c : curves) finding += maximum_text(c.name, c.data);
   return {.id = id,
           .title = title,
@@ -341,11 +326,12 @@ Figure places(const Samples& samples) {
   return figure;
 }
 
-Figure extremal_forces(const Samples& samples) {
+Figure extremal_forces(const Samples& samples, const char* id, const char* title, bool solver,
+                       const char* which) {
   std::vector<Curve> curves = {{"simulated", samples.of({"cd1"}, "R"), Mark::kLine, 7, true}};
   const std::array<const char*, 4> names = {"R minimal", "R maximal", "T minimal", "T maximal"};
   for (std::size_t k = 0; k < 4; ++k) {
-    curves.push_back({names[k], samples.extremal("cd1", static_cast<int>(k)),
+    curves.push_back({names[k], samples.extremal("cd1", static_cast<int>(k), solver),
                       k < 2 ? Mark::kLine : Mark::kDashed, static_cast<int>(k), false});
   }
   const double high = std::ceil(largest_of(curves));
@@ -357,12 +343,12 @@ Figure extremal_forces(const Samples& samples) {
     const Estimate f = fraction_between(c.data, 60, 1e9);
     finding += fmt::format("{}: {:.4f} ± {:.4f}. ", c.name, f.value, f.error);
   }
-  return {.id = "fig12",
-          .title = "Fig. 12: normal forces in simulated and extremal states",
+  return {.id = id,
+          .title = title,
           .caption = fmt::format(
               "Densities of R in the CD-1 states, and in the extremal states in which some contact's "
-              "force is smallest or largest (canonical ones). {}",
-              kDensity),
+              "force is smallest or largest; {}. {}",
+              which, kDensity),
           .claim =
               "They coincide below 30 mg; beyond, extremal states have more large forces. Approximately "
               "exponential.",
@@ -396,12 +382,10 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
   if (!samples.has({"cd1", "cd2", "md1", "md2"}) || tables.contacts.rows() == 0) return figures;
   for (Figure& figure : dimensions(tables)) figures.push_back(std::move(figure));
   figures.push_back(local(samples));
-  figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", "d_R", "d_T",
-                           "where many states attain an optimum, the one of smallest total normal force"));
+  figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", "d_R", "d_T", kCanonical));
   if (samples.has_solver_states()) {
     figures.push_back(global(samples, "fig08-solver", "Fig. 8 with the solver's vertices", "solver_d_R",
-                             "solver_d_T",
-                             "where many states attain an optimum, the vertex that the solver lands on"));
+                             "solver_d_T", kSolver));
   }
   figures.push_back(weak_and_strong(
       samples, "fig09", "Fig. 9: local indeterminacy of weak and strong contacts", "delta_R", "delta_T",
@@ -414,7 +398,12 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
                       "larger values.",
                       false));
   figures.push_back(places(samples));
-  figures.push_back(extremal_forces(samples));
+  figures.push_back(extremal_forces(
+      samples, "fig12", "Fig. 12: normal forces in simulated and extremal states", false, kCanonical));
+  if (samples.has_solver_states()) {
+    figures.push_back(
+        extremal_forces(samples, "fig12-solver", "Fig. 12 with the solver's vertices", true, kSolver));
+  }
   figures.push_back(families(samples));
   return figures;
 }

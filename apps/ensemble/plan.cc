@@ -32,8 +32,8 @@ std::string analysis_toml(const EnsembleConfig& config, std::int64_t seed) {
   const sim::PerturbOptions& s = config.sampling;
   text += fmt::format("[sampling]\nsamples = {}\n", s.samples);
   if (s.samples > 0) {
-    text += fmt::format("width = {}\nchains = {}\ntolerance = {}\nsweeps = {}\n", s.width, s.chains,
-                        s.solver.tolerance, s.solver.max_sweeps);
+    text += fmt::format("width = {}\nchains = {}\ndistance = {}\ntolerance = {}\nsweeps = {}\n", s.width,
+                        s.chains, s.distance, s.solver.tolerance, s.solver.max_sweeps);
     if (seed >= 0) text += fmt::format("seed = {}\n", seed);
   }
   return text;

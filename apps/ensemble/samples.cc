@@ -1,8 +1,31 @@
 #include "indet/ensemble/samples.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace indet {
+
+double largest(const GroupedValues& data) {
+  double high = 0;
+  for (const double value : data.values) {
+    if (std::isfinite(value)) high = std::max(high, value);
+  }
+  return high;
+}
+
+double round_width(double span, int bins) {
+  const double raw = std::max(span / bins, 1e-12);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= raw) return factor * power;
+  }
+  return 10 * power;
+}
+
+Estimate main_maximum(const GroupedValues& data) {
+  const double high = largest(data);
+  return high > 0 ? position_of_maximum(data, 0.1 * high, high, round_width(high, 40)) : Estimate{};
+}
 
 Samples::Samples(const EnsembleTables& tables) : tables_(tables) {
   std::map<std::int64_t, int> numbers;
@@ -62,16 +85,18 @@ GroupedValues Samples::split_by_force(const std::string& protocol, const std::st
   return result;
 }
 
-GroupedValues Samples::extremal(const std::string& protocol, int objective) const {
+GroupedValues Samples::extremal(const std::string& protocol, int objective, bool solver) const {
   GroupedValues result;
   const FlatTable& table = tables_.extremal;
   const std::vector<double> run = table.numbers("run");
+  const std::vector<double> choice = table.numbers("choice");
   const std::vector<double> kind = table.numbers("objective");
   const std::vector<double> bin = table.numbers("bin");
   const std::vector<double> count = table.numbers("count");
   for (std::size_t i = 0; i < run.size(); ++i) {
     const auto row = static_cast<std::size_t>(run[i]);
-    if (kind[i] == objective && tables_.runs.text("protocol", row) == protocol)
+    if (choice[i] == (solver ? 1 : 0) && kind[i] == objective &&
+        tables_.runs.text("protocol", row) == protocol)
       result.add(bin[i] + 0.5, group_[row], count[i]);
   }
   result.groups = groups_;

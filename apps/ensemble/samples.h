@@ -9,6 +9,16 @@
 
 namespace indet {
 
+/// The largest finite value; 0 if there is none.
+double largest(const GroupedValues& data);
+
+/// A width of bins that is 1, 2 or 5 times a power of ten and makes at most `bins` of them.
+double round_width(double span, int bins);
+
+/// Position of the main maximum of a density away from 0: beyond a tenth of the largest value, with the bins
+/// of the figures.
+Estimate main_maximum(const GroupedValues& data);
+
 /// Columns of the tables of an ensemble as samples, grouped by seed. `tables` must outlive it.
 class Samples {
  public:
@@ -22,8 +32,9 @@ class Samples {
   /// The same for contacts with more, or less, than the mean normal force of the protocol.
   GroupedValues split_by_force(const std::string& protocol, const std::string& column, bool strong) const;
   double mean_force(const std::string& protocol) const;
-  /// R in the extremal states of one kind of objective; bins of 1 mg at their centres.
-  GroupedValues extremal(const std::string& protocol, int objective) const;
+  /// R in the extremal states of one kind of objective, the canonical ones or the vertices that the solver
+  /// lands on; bins of 1 mg at their centres.
+  GroupedValues extremal(const std::string& protocol, int objective, bool solver) const;
   /// A column of the runs of one protocol; NaN where unknown.
   std::vector<double> runs(const std::string& protocol, const std::string& column) const;
 

@@ -168,7 +168,8 @@ class Collector {
     tables_.runs.add_rows(1);
     add_run(unit, file, content, run);
     add_contacts(file, content, run);
-    add_extremal(file, run);
+    add_extremal(file, "/ensemble/extremal_R", 0, run);
+    add_extremal(file, "/ensemble/solver_extremal_R", 1, run);
     tables_.timings.add_rows(1);
     for (const char* stage : {"simulate", "analyze", "analyze_solver_states", "sample"})
       tables_.timings.set(stage, run, attribute_or_nan(file, "/provenance/timings", stage));
@@ -250,9 +251,10 @@ class Collector {
     }
   }
 
-  void add_extremal(const Hdf5File& file, std::size_t run) {
-    const Shape shape = file.shape("/ensemble/extremal_R", 2);
-    const std::vector<std::int32_t> counts = file.read_integers("/ensemble/extremal_R", shape);
+  void add_extremal(const Hdf5File& file, const std::string& dataset, int choice, std::size_t run) {
+    if (!file.has(dataset)) return;
+    const Shape shape = file.shape(dataset, 2);
+    const std::vector<std::int32_t> counts = file.read_integers(dataset, shape);
     FlatTable& table = tables_.extremal;
     for (std::size_t k = 0; k < shape[0]; ++k) {
       for (std::size_t bin = 0; bin < shape[1]; ++bin) {
@@ -261,6 +263,7 @@ class Collector {
         const std::size_t row = table.rows();
         table.add_rows(1);
         table.set("run", row, static_cast<double>(run));
+        table.set("choice", row, choice);
         table.set("objective", row, static_cast<double>(k));
         table.set("bin", row, static_cast<double>(bin));
         table.set("count", row, count);
@@ -353,6 +356,7 @@ EnsembleTables::EnsembleTables()
     : runs(run_columns()),
       contacts(contact_columns()),
       extremal({integer("run", "row of the packing in /table/runs"),
+                integer("choice", "0: canonical states, 1: vertices that the solver lands on"),
                 integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),
                 integer("bin", "R in [bin, bin+1) mg"), integer("count", "contacts with such a force")}),
       timings({real("simulate", "s", "simulation"),

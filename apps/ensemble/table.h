@@ -55,7 +55,7 @@ class FlatTable {
 struct EnsembleTables {
   FlatTable runs;      ///< One row a packing, in the order of the plan.
   FlatTable contacts;  ///< One row a contact; `run` is the row of its packing.
-  FlatTable extremal;  ///< Histogram of R in the extremal states: run, objective, bin, count.
+  FlatTable extremal;  ///< Histogram of R in the extremal states: run, choice, objective, bin, count.
   FlatTable timings;   ///< Seconds by stage, one row a packing.
 
   EnsembleTables();

@@ -63,6 +63,7 @@ void analyze_unit(const EnsembleConfig& config, const ProgressCallback& progress
   const ForceRanges landed = analyze(result.packing, options);
   result.solver_d_R = landed.d_R;
   result.solver_d_T = landed.d_T;
+  result.solver_extremal = count_extremal_forces(landed);
   result.seconds["analyze_solver_states"] = watch.seconds();
 }
 

@@ -29,7 +29,8 @@ struct UnitResult {
   std::optional<SimulationRecord> simulation;
   ForceRanges ranges;
   Eigen::VectorXd solver_d_R, solver_d_T;  ///< [24] with the vertices that the solver lands on; or empty.
-  ExtremalForces extremal;
+  ExtremalForces extremal;                 ///< Of the canonical states.
+  ExtremalForces solver_extremal;          ///< Of the vertices that the solver lands on; or empty.
   std::optional<SamplingRecord> sampling;
   std::map<std::string, double> seconds;
 };

@@ -1,10 +1,13 @@
 #include "indet/ensemble/unit_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
 #include "indet/base/error.h"
 #include "indet/io/ranges_file.h"
+#include "indet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -13,6 +16,20 @@ void write_vector(Hdf5File& file, const std::string& path, const Eigen::VectorXd
                   const Label& label) {
   const auto size = static_cast<std::size_t>(values.size());
   file.write(path, std::span<const double>(values.data(), size), {size}, label);
+}
+
+void write_counts(Hdf5File& file, const std::string& path, const ExtremalForces& forces, const char* which) {
+  std::size_t bins = 0;
+  for (const auto& counts : forces.counts) bins = std::max(bins, counts.size());
+  std::vector<std::int32_t> values;
+  for (auto counts : forces.counts) {
+    counts.resize(bins, 0);
+    values.insert(values.end(), counts.begin(), counts.end());
+  }
+  file.write(
+      path, values, {4, bins},
+      {"1", fmt::format("how often R lies in [k, k+1) mg in the states of R_min, R_max, T_min, T_max; {}",
+                        which)});
 }
 
 void write_ensemble_part(Hdf5File& file, const Unit& unit, const UnitResult& result) {
@@ -27,16 +44,10 @@ void write_ensemble_part(Hdf5File& file, const Unit& unit, const UnitResult& res
     write_vector(
         file, "/ensemble/solver_d_T", result.solver_d_T,
         {"1", "global indeterminacy of the tangential force with the vertices that the solver lands on"});
+    write_counts(file, "/ensemble/solver_extremal_R", result.solver_extremal,
+                 "vertices that the solver lands on");
   }
-  std::size_t bins = 0;
-  for (const auto& counts : result.extremal.counts) bins = std::max(bins, counts.size());
-  std::vector<std::int32_t> values;
-  for (auto counts : result.extremal.counts) {
-    counts.resize(bins, 0);
-    values.insert(values.end(), counts.begin(), counts.end());
-  }
-  file.write("/ensemble/extremal_R", values, {4, bins},
-             {"1", "how often R lies in [k, k+1) mg in the states of R_min, R_max, T_min, T_max"});
+  write_counts(file, "/ensemble/extremal_R", result.extremal, "canonical states");
 }
 
 }  // namespace
@@ -56,6 +67,7 @@ void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitR
   write_provenance_part(file, all);
   write_work_part(file, result.ranges);
   seal(file);
+  remove_leftovers(path);
 }
 
 bool unit_is_done(const std::filesystem::path& path, const Unit& unit) {

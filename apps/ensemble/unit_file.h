@@ -9,7 +9,7 @@ namespace indet {
 
 /// The file of one unit is a file of `indet analyze` with /simulation and /sampling, and
 ///
-///     /ensemble  @unit @hash @config; solver_d_R, solver_d_T f8[M]; extremal_R i4[4, B]
+///     /ensemble  @unit @hash @config; solver_d_R, solver_d_T f8[M]; extremal_R, solver_extremal_R i4[4, B]
 ///
 /// All functions use HDF5: one thread at a time.
 void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitResult& result,

@@ -50,7 +50,8 @@ class EnsembleTest(program.ProgramTest):
                 mine = contacts["run"] == row
                 np.testing.assert_array_equal(contacts["delta_R"][mine], unit["ranges/delta_R"][()])
                 np.testing.assert_allclose(contacts["R"][mine], unit["contacts/R"][()] / runs["mg"][row])
-                self.assertEqual(unit["ensemble/extremal_R"][()].sum(), 4 * runs["contacts"][row] ** 2)
+                for states in ("extremal_R", "solver_extremal_R"):
+                    self.assertEqual(unit[f"ensemble/{states}"][()].sum(), 4 * runs["contacts"][row] ** 2)
                 self.assertEqual(runs["r"][row], unit["sampling"].attrs["r"])
             self.run_indet("verify", f"e/units/{name.decode()}.h5")
 
@@ -83,6 +84,8 @@ class EnsembleTest(program.ProgramTest):
         self.assertGreater(kills, 0)
         self.ensemble("killed")
         self.assertEqual(content(self.folder / "killed/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        leftovers = [path for path in (self.folder / "killed").rglob("*.tmp")]
+        self.assertEqual(leftovers, [])
 
     def test_a_finished_unit_is_skipped_and_a_damaged_or_different_one_is_not(self):
         self.ensemble("e")

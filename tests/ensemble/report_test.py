@@ -14,7 +14,7 @@ import program  # noqa: E402
 
 CHROMIUM = ""
 TINY = ["--seeds", "2", "--disks", "12", "--samples", "5"]
-FIGURES = ["fig03", "fig06a", "fig06b", "fig07", "fig08", "fig08-solver", "fig09", "fig10", "fig11", "fig12", "fig13"]
+FIGURES = ["fig03", "fig06a", "fig06b", "fig07", "fig08", "fig08-solver", "fig09", "fig10", "fig11", "fig12", "fig12-solver", "fig13"]
 PROBE = """<script>addEventListener("load", () => {
   const seen = [...document.querySelectorAll("figure svg")].map(svg => {
     const box = svg.getBoundingClientRect();
