@@ -18,7 +18,9 @@ namespace {
 // Okabe and Ito's palette, in an order whose lightness differs between neighbours.
 constexpr std::array<const char*, 8> kColours = {"#0072B2", "#E69F00", "#009E73", "#D55E00",
                                                  "#CC79A7", "#56B4E9", "#F0E442", "#000000"};
-constexpr std::array<int, 4> kSymbols = {7, 5, 9, 2};  // disk, square, triangle, cross
+// Open ones, of growing size, so that points at one place are all seen: circle, square, triangle, cross.
+constexpr std::array<int, 4> kSymbols = {6, 4, 8, 2};
+constexpr std::array<double, 4> kSymbolSizes = {0.5, 0.75, 0.85, 0.6};
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -39,8 +41,9 @@ std::string style(const Series& series) {
   const double width = series.thick ? 2.2 : 1.2;
   const char* colour = kColours[static_cast<std::size_t>(series.colour) % kColours.size()];
   if (series.mark == Mark::kPoints) {
-    return fmt::format("with points pt {} ps 0.55 lc rgb '{}'",
-                       kSymbols[static_cast<std::size_t>(series.symbol) % kSymbols.size()], colour);
+    const auto symbol = static_cast<std::size_t>(series.symbol) % kSymbols.size();
+    return fmt::format("with points pt {} ps {} lw 1.4 lc rgb '{}'", kSymbols[symbol], kSymbolSizes[symbol],
+                       colour);
   }
   const int dash = series.mark == Mark::kDashed ? 2 : series.mark == Mark::kDotted ? 3 : 1;
   return fmt::format("with lines lw {} dt {} lc rgb '{}'", width, dash, colour);
