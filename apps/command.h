@@ -65,6 +65,9 @@ Command add_verify(CLI::App& root);
 Command add_export(CLI::App& root);
 Command add_simulate(CLI::App& root);
 Command add_sample(CLI::App& root);
+Command add_ensemble(CLI::App& root);
+Command add_merge(CLI::App& root);
+Command add_report(CLI::App& root);
 Command add_trajectory(CLI::App& root);
 Command add_completion(CLI::App& root);
 

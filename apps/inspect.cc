@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <iostream>
 #include <limits>
@@ -13,6 +14,8 @@
 #include <vector>
 
 #include "command.h"
+#include "indet/ensemble/comparison.h"
+#include "indet/ensemble/ensemble_file.h"
 #include "indet/io/balance.h"
 #include "indet/io/packing_file.h"
 #include "indet/io/ranges_file.h"
@@ -270,7 +273,38 @@ void print_ranges(const ForceRanges& r) {
                                               r.formulation, r.solves, r.pivots));
 }
 
-int run(const std::string& path, const Context& context) {
+int inspect_ensemble(const std::string& path, const Context& context) {
+  const EnsembleContents contents = read_ensemble(path);
+  const Digests digests = compute_digests(path);
+  const FlatTable& runs = contents.tables.runs;
+  std::map<std::string, int> protocols;
+  for (std::size_t row = 0; row < runs.rows(); ++row) ++protocols[runs.text("protocol", row)];
+  const std::vector<Comparison> facts = beyond_the_paper(contents.tables);
+  if (context.json) {
+    nlohmann::json json = {{"file", path},
+                           {"packings", runs.rows()},
+                           {"contacts", contents.tables.contacts.rows()},
+                           {"protocols", protocols},
+                           {"missing", contents.missing},
+                           {"content_sha256", digests.content},
+                           {"intact", digests.match()}};
+    for (const Comparison& fact : facts) json["facts"][fact.quantity] = fact.ours;
+    std::cout << json.dump(2) << '\n';
+    return kDone;
+  }
+  print_line("ensemble", path);
+  for (const auto& [protocol, count] : protocols) print_line("  " + protocol, counted(count, "packing"));
+  print_line("  contacts", fmt::format("{}", contents.tables.contacts.rows()));
+  print_line("  missing", fmt::format("{}", contents.missing.size()));
+  for (const Comparison& fact : facts) fmt::print("  {:<30}{}\n", fact.quantity, fact.ours);
+  print_line("contents", digests.content + (digests.match() ? "" : " DIFFERS"));
+  if (!digests.match()) context.warn(path + ": its numbers are not those that were written");
+  return kDone;
+}
+
+int run(const std::string& given, const Context& context) {
+  const std::string path = std::filesystem::is_directory(given) ? given + "/ensemble.h5" : given;
+  if (file_is_ensemble(path)) return inspect_ensemble(path, context);
   const FileContents contents = read(path);
   if (context.json) {
     std::cout << to_json(path, contents).dump(2) << '\n';
@@ -303,7 +337,7 @@ int run(const std::string& path, const Context& context) {
 Command add_inspect(CLI::App& root) {
   const auto path = std::make_shared<std::string>();
   CLI::App* command = root.add_subcommand("inspect", "Show what is in a file");
-  command->add_option("file", *path, "HDF5 file")->required();
+  command->add_option("file", *path, "HDF5 file, or the folder of an ensemble")->required();
   return {command, [path](const Context& context) { return run(*path, context); }};
 }
 

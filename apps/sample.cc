@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "indet/base/error.h"
+#include "indet/ensemble/unit.h"
 #include "indet/io/sampling_file.h"
 #include "indet/sim/perturb_sampling.h"
 
@@ -20,32 +21,13 @@ struct SampleOptions {
   sim::PerturbOptions perturb;
 };
 
-SamplingRecord record_of(const SampleOptions& o, const sim::PerturbEnsemble& ensemble) {
-  SamplingRecord record;
-  record.method = o.method;
-  record.center = ensemble.center;
-  record.numbers = {{"r", ensemble.r},
-                    {"r_error", ensemble.r_error},
-                    {"spread", ensemble.spread},
-                    {"start_distance", ensemble.start_distance},
-                    {"samples", static_cast<double>(ensemble.samples.size())},
-                    {"accepted", ensemble.accepted},
-                    {"converged", ensemble.converged},
-                    {"worst_raw_residual", ensemble.worst_raw_residual},
-                    {"worst_residual", ensemble.worst_residual},
-                    {"chains", o.perturb.chains},
-                    {"width", o.perturb.width},
-                    {"seed", static_cast<double>(o.perturb.seed)}};
-  return record;
-}
-
 int run(SampleOptions o, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   const Packing packing = read_packing(o.file);
   o.perturb.threads = context.thread_count();
   const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(packing, o.perturb, context.progress());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const SamplingRecord record = record_of(o, ensemble);
+  const SamplingRecord record = record_of(ensemble, o.perturb);
   if (!o.output.empty()) {
     Provenance provenance{context.arguments, context.resolved_config, {}, {}};
     provenance.seconds["sample"] = seconds;
@@ -88,9 +70,11 @@ Command add_sample(CLI::App& root) {
   command->add_option("--width", perturb.width, "Forces are multiplied by numbers in 1 ± WIDTH")
       ->capture_default_str();
   command->add_option("--seed", perturb.seed, "Seed of the random numbers")->capture_default_str();
+  command->add_option("--distance", perturb.distance, "Solve until balanced forces are as close as this (mg)")
+      ->capture_default_str();
   command
       ->add_option("--tolerance", perturb.solver.tolerance,
-                   "Largest change of a force in the last sweep (mg)")
+                   "... or until no force changes by more than this in a sweep (mg)")
       ->capture_default_str();
   command->add_option("--sweeps", perturb.solver.max_sweeps, "Most sweeps a solution")->capture_default_str();
   command->add_option("-o,--output", options->output, "HDF5 file to write: the packing with /sampling");

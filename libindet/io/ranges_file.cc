@@ -151,13 +151,6 @@ void write_rays(Hdf5File& file, const ForceRanges& ranges) {
              {"1", "directions (R_1, T_1, ..., R_M, T_M) in which forces can be added without limit"});
 }
 
-void write_work(Hdf5File& file, const ForceRanges& ranges) {
-  file.make_group("/provenance/work");
-  file.set_attribute("/provenance/work", "formulation", ranges.formulation);
-  file.set_attribute("/provenance/work", "solves", ranges.solves);
-  file.set_attribute("/provenance/work", "pivots", ranges.pivots);
-}
-
 [[noreturn]] void fail(const Hdf5File& file, const std::string& object, const std::string& reason) {
   throw Hdf5ReadError(fmt::format("{}: {}: {}", file.path().string(), object, reason));
 }
@@ -241,20 +234,31 @@ void read_work(const Hdf5File& file, ForceRanges& ranges) {
 
 }  // namespace
 
-void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
-                  const Provenance& provenance) {
-  Hdf5File file = Hdf5File::create(path);
-  write_header(file);
-  write_packing_part(file, packing);
+void write_ranges_part(Hdf5File& file, const ForceRanges& ranges) {
   write_equilibrium(file, ranges);
   write_tables(file, ranges);
   write_extremal(file, ranges);
   write_rays(file, ranges);
   file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
+}
+
+void write_work_part(Hdf5File& file, const ForceRanges& ranges) {
+  file.make_group("/provenance/work");
+  file.set_attribute("/provenance/work", "formulation", ranges.formulation);
+  file.set_attribute("/provenance/work", "solves", ranges.solves);
+  file.set_attribute("/provenance/work", "pivots", ranges.pivots);
+}
+
+void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
+                  const Provenance& provenance) {
+  Hdf5File file = Hdf5File::create(path);
+  write_header(file);
+  write_packing_part(file, packing);
+  write_ranges_part(file, ranges);
   Provenance all = provenance;
   all.seconds.insert(ranges.seconds.begin(), ranges.seconds.end());
   write_provenance_part(file, all);
-  write_work(file, ranges);
+  write_work_part(file, ranges);
   seal(file);
 }
 

@@ -6,17 +6,21 @@
 
 namespace indet {
 
-void write_sampling(const std::filesystem::path& path, const Packing& packing, const SamplingRecord& record,
-                    const Provenance& provenance) {
-  Hdf5File file = Hdf5File::create(path);
-  write_header(file);
-  write_packing_part(file, packing);
+void write_sampling_part(Hdf5File& file, const SamplingRecord& record) {
   file.make_group("/sampling");
   file.set_attribute("/sampling", "method", record.method);
   for (const auto& [name, value] : record.numbers) file.set_attribute("/sampling", name, value);
   const auto size = static_cast<std::size_t>(record.center.size());
   file.write("/sampling/center", std::span<const double>(record.center.data(), size), {size},
              {"force", "mean of the accepted states, R and T of each contact in turn"});
+}
+
+void write_sampling(const std::filesystem::path& path, const Packing& packing, const SamplingRecord& record,
+                    const Provenance& provenance) {
+  Hdf5File file = Hdf5File::create(path);
+  write_header(file);
+  write_packing_part(file, packing);
+  write_sampling_part(file, record);
   write_provenance_part(file, provenance);
   seal(file);
 }

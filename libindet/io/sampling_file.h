@@ -23,6 +23,9 @@ struct SamplingRecord {
 void write_sampling(const std::filesystem::path& path, const Packing& packing, const SamplingRecord& record,
                     const Provenance& provenance);
 
+/// /sampling alone, for the writers of files that hold more.
+void write_sampling_part(Hdf5File& file, const SamplingRecord& record);
+
 /// Throws InputError if the file has no /sampling.
 SamplingRecord read_sampling(const std::filesystem::path& path);
 

@@ -1,8 +1,8 @@
-#include "simulation_values.h"
+#include "indet/ensemble/simulation_values.h"
 
 #include <fmt/format.h>
 
-namespace indet::app {
+namespace indet {
 namespace {
 
 Contact contact_of(const sim::ContactState& state) {
@@ -145,4 +145,4 @@ std::string to_toml(const sim::SimulationOptions& options) {
   return text;
 }
 
-}  // namespace indet::app
+}  // namespace indet

@@ -5,7 +5,7 @@
 #include "indet/io/simulation_file.h"
 #include "indet/sim/simulate.h"
 
-namespace indet::app {
+namespace indet {
 
 /// Between the values of libsim and those that libindet stores.
 
@@ -22,4 +22,4 @@ sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::Friction& 
 /// Every option that the outcome depends on, as TOML.
 std::string to_toml(const sim::SimulationOptions& options);
 
-}  // namespace indet::app
+}  // namespace indet
