@@ -76,9 +76,6 @@ class GlpkProblem {
   std::int64_t pivots_ = 0;
 };
 
-/// Frees GLPK's memory of the calling thread; to be called at the end of a worker thread that used GLPK.
-void free_glpk_environment();
-
 /// The version of the GLPK that runs, e.g. "5.0".
 const char* glpk_version();
 

@@ -11,7 +11,6 @@
 #include "indet/base/random.h"
 #include "indet/base/tolerances.h"
 #include "indet/base/worker_team.h"
-#include "indet/lp/glpk_problem.h"
 
 namespace indet {
 namespace {
@@ -76,10 +75,7 @@ class Search {
         options_(options),
         records_(2 * components.size()),
         solvers_(static_cast<std::size_t>(std::max(1, options.threads))),
-        team_(options.threads, [this](int worker) {
-          solvers_[static_cast<std::size_t>(worker)].reset();
-          free_glpk_environment();
-        }) {
+        team_(options.threads, [this](int worker) { solvers_[static_cast<std::size_t>(worker)].reset(); }) {
     rows_.resize(static_cast<Eigen::Index>(components.size()), set.dim());
     for (std::size_t c = 0; c < components.size(); ++c) {
       objectives_.push_back(make_objective(set, components[c].on_edges));
