@@ -142,7 +142,7 @@ std::vector<Comparison> beyond_the_paper(const EnsembleTables& tables) {
                   fmt::format("{} ({:.2g} %)", sum(runs, "unique"), 100 * sum(runs, "unique") / objectives),
                   ""});
   if (sum_known(runs, "samples") > 0) {
-    rows.push_back({"solutions of perturb-and-resolve in the polytope", "",
+    rows.push_back({"perturbed solutions accepted", "",
                     fmt::format("{} of {}", sum_known(runs, "accepted"), sum_known(runs, "samples")), ""});
   }
   rows.push_back({"worst residuals", "", fmt::format("primal {:.1e} mg, dual {:.1e}", primal, dual), ""});
