@@ -79,6 +79,16 @@ std::string table_of(const std::vector<Comparison>& rows, bool with_paper) {
   return text + "</table>\n";
 }
 
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::string csv_of(const std::vector<Comparison>& rows) {
+  std::string text = "quantity,paper,here,verdict\n";
+  for (const Comparison& row : rows)
+    text +=
+        fmt::format("{},{},{},{}\n", quoted(row.quantity), quoted(row.paper), quoted(row.ours), row.verdict);
+  return text;
+}
+
 /// Fig. 4 as a table of what was run.
 std::string table_of_runs(const EnsembleTables& tables) {
   const Samples samples(tables);
@@ -162,11 +172,13 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
       "N = 95, μ = 0.3, 60 seeds; numbers in brackets are its equations.</p>\n",
       runs.rows(), contents.tables.contacts.rows());
   html += "<h2>What was run (Fig. 4)</h2>\n" + table_of_runs(contents.tables);
-  html += "<h2>The paper's numbers</h2>\n" + table_of(compare_with_paper(contents.tables), true);
+  const std::vector<Comparison> comparison = compare_with_paper(contents.tables);
+  write_whole_file(figures_folder / "comparison.csv", csv_of(comparison));
+  html += "<h2>The paper's numbers</h2>\n" + table_of(comparison, true);
   html +=
       "<p class=\"note\">\"agrees\": within two standard errors of the difference; where the paper gives no "
       "error, "
-      "within 10 %.</p>\n";
+      "within 10 %. File: figures/comparison.csv</p>\n";
   html += "<h2>Beyond the paper</h2>\n" + table_of(beyond_the_paper(contents.tables), false);
   if (!pictures.empty()) {
     html += "<h2>Fig. 5: three contact states</h2>\n<div class=\"row\">\n";

@@ -62,6 +62,12 @@ class ReportTest(program.ProgramTest):
             subprocess.run(["gnuplot", f"{name}.gp"], cwd=folder, check=True, capture_output=True)
             self.assertEqual((folder / f"{name}.svg").read_text(), before)
 
+    def test_the_table_beside_the_paper_is_there_as_numbers(self):
+        with open(self.make() / "figures/comparison.csv", newline="") as file:
+            rows = {row["quantity"]: row for row in csv.DictReader(file)}
+        self.assertEqual(rows["sliding contacts Ms ≤ 2M − 3N (Fig. 6b)"]["here"], "8 of 8")
+        self.assertIn("33 ± 1.4 mg", rows["r of perturb-and-resolve [38], CD-1"]["paper"])
+
     def test_two_contacts_follow_the_formulas(self):
         text = (self.make() / "report.html").read_text()
         self.assertLess(float(re.search(r"difference from the formulas: ([\d.e+-]+)\.", text).group(1)), 1e-9)
