@@ -132,7 +132,8 @@ TEST(Simulate, SettlesASmallSceneInBalanceWithEveryMethod) {
     EXPECT_LE(result.polished.residual, 1e-12);
     EXPECT_EQ(result.polished.cone_violation, 0);
     EXPECT_GE(2 * result.packing.contact_count(), 3 * 20 - 1);
-    EXPECT_LT(result.mean_overlap, kind == Kind::kContactDynamics ? 1e-8 : 1e-5);
+    // Contact dynamics: about 2e-9 in most scenes; 1e-6 if overlaps were left alone (alpha = 0).
+    EXPECT_LT(result.mean_overlap, kind == Kind::kContactDynamics ? 1e-7 : 1e-5);
   }
 }
 
