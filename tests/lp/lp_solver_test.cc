@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "indet/base/random.h"
@@ -11,6 +12,9 @@
 #include "support/sets.h"
 
 namespace indet {
+
+void PrintTo(Formulation formulation, std::ostream* stream) { *stream << to_string(formulation); }
+
 namespace {
 
 class Formulations : public testing::TestWithParam<Formulation> {};
