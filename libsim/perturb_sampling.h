@@ -33,8 +33,8 @@ struct PerturbOptions {
   int threads = 1;  ///< Results do not depend on it.
   /// A solution is taken once balanced forces are this close to it (mg, norm over all contacts), or once the
   /// sweeps change it by less than the solver's tolerance.
-  double distance = 1;
-  StaticOptions solver = {.tolerance = 1e-5, .max_sweeps = 20000};
+  double distance = 0.3;
+  StaticOptions solver = {.tolerance = 1e-6, .max_sweeps = 50000};
   PolishOptions polish = {};
   double accept_residual =
       1e-9;  ///< A polished solution is accepted if it balances, and lies in the cones, to this (mg).
