@@ -160,6 +160,8 @@ GlpkProblem::Result GlpkProblem::solve(const Settings& settings) {
 
 std::int64_t GlpkProblem::pivots() const { return pivots_; }
 
+double GlpkProblem::objective_value() const { return glp_get_obj_val(problem_); }
+
 void free_glpk_environment() {
   glp_free_env();
   ++environment_generation;
