@@ -108,6 +108,13 @@ Extremes extremes(const Values& values) {
   return result;
 }
 
+/// The largest value, infinite or not, of those that are known; 0 if there is none.
+double largest(const Eigen::VectorXd& values) {
+  double result = 0;
+  for (const double value : values) result = std::max(result, std::isnan(value) ? 0.0 : value);
+  return result;
+}
+
 /// Infinite values and NaN as text, which JSON lacks.
 nlohmann::json number(double value) {
   if (std::isfinite(value)) return value;
@@ -161,7 +168,9 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                       {"rank_ambiguous", r.rank_ambiguous},
                       {"nullity", r.nullity},
                       {"dim", r.dim},
+                      {"method", to_string(r.method)},
                       {"formulation", r.formulation},
+                      {"requested", r.requested},
                       {"objectives", r.objectives},
                       {"certified", r.certified},
                       {"unbounded", r.unbounded},
@@ -169,9 +178,9 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                       {"failed", r.failed},
                       {"states", r.states.rows()},
                       {"mean_delta_R", number(extremes(r.delta_R).mean())},
-                      {"max_delta_R", number(r.delta_R.size() > 0 ? r.delta_R.maxCoeff() : 0)},
+                      {"max_delta_R", number(largest(r.delta_R))},
                       {"mean_delta_T", number(extremes(r.delta_T).mean())},
-                      {"max_delta_T", number(r.delta_T.size() > 0 ? r.delta_T.maxCoeff() : 0)},
+                      {"max_delta_T", number(largest(r.delta_T))},
                       {"worst_primal_residual", number(r.worst_primal_residual)},
                       {"worst_dual_residual", number(r.worst_dual_residual)}};
   }
@@ -261,6 +270,12 @@ void print_ranges(const ForceRanges& r) {
   print_line("  equilibrium",
              fmt::format("{} unknowns, {} equations, rank {}{}, nullity {}, dim F {}", r.unknowns,
                          r.equations, r.rank, r.rank_ambiguous ? " (ambiguous)" : "", r.nullity, r.dim));
+  if (r.choice != ContactChoice::Kind::kAll) {
+    print_line("  asked for", fmt::format("{} of {} contacts ({})", r.requested, r.outcome.rows(),
+                                          r.choice == ContactChoice::Kind::kSample
+                                              ? fmt::format("a sample, seed {}", r.sample_seed)
+                                              : "a list"));
+  }
   print_line("  objectives", fmt::format("{}: {} certified, {} unbounded, {} imprecise, {} failed",
                                          r.objectives, r.certified, r.unbounded, r.imprecise, r.failed));
   print_line("  residuals",
@@ -269,8 +284,11 @@ void print_ranges(const ForceRanges& r) {
   print_line("  delta_T", measure(r.delta_T));
   print_line("  d_R (mg)", measure(r.d_R));
   print_line("  d_T (mg)", measure(r.d_T));
-  print_line("  extremal states", fmt::format("{}, formulation {}, {} solves, {} pivots", r.states.rows(),
-                                              r.formulation, r.solves, r.pivots));
+  print_line(
+      "  extremal states",
+      fmt::format("{}, by {}, {} solves, {} pivots", r.states.rows(),
+                  r.method == Method::kLp ? "linear programs (" + r.formulation + ")" : to_string(r.method),
+                  r.solves, r.pivots));
 }
 
 int inspect_ensemble(const std::string& path, const Context& context) {

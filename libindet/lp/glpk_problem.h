@@ -68,7 +68,8 @@ class GlpkProblem {
   /// Runs the simplex method from the present basis, freshly factorised unless keep_factors is set: the
   /// result then depends on problem and basis alone. Throws GlpkAborted.
   Result solve(const Settings& settings);
-  std::int64_t pivots() const;  ///< of the last solve
+  std::int64_t pivots() const;     ///< of the last solve
+  double objective_value() const;  ///< GLPK's own number, which benchmarks compare with what is recomputed
 
  private:
   glp_prob* problem_ = nullptr;
