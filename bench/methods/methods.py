@@ -177,11 +177,11 @@ def main():
         for number, file in enumerate(files):
             print(f"\r{number}/{len(files)} {file.name}", end="", file=sys.stderr, flush=True)
             results.append(measure(program, methods, file, options.repeat))
+            if options.json:  # what is done stays if the rest is interrupted
+                options.json.write_text(json.dumps(results, indent=1) + "\n")
     print("\r" + " " * 40 + "\r", end="", file=sys.stderr)
     for method in set(methods) - set(results[0]["methods"]):
         print(f"built without {method}: it is left out", file=sys.stderr)
-    if options.json:
-        options.json.write_text(json.dumps(results, indent=1) + "\n")
     if options.csv:
         write_csv(options.csv, results)
     print_table(results, methods)

@@ -82,7 +82,7 @@ def expected_seconds(rows, method, disks):
     return last * (disks / sizes[-1]) ** power
 
 
-def measure(build, files, limit):
+def measure(build, files, limit, keep):
     rows = []
     for file in sorted(files, key=disks_in):
         disks = disks_in(file)
@@ -103,6 +103,8 @@ def measure(build, files, limit):
             else:
                 continue
             rows.append(row | {"memory": memory})
+            if keep:  # what is done stays if the rest is interrupted
+                keep.write_text(json.dumps({"rows": rows}, indent=1) + "\n")
     print("\r" + " " * 60 + "\r", end="", file=sys.stderr)
     return rows
 
@@ -161,7 +163,7 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         files = options.files or make_packings(options.build / "indet", pathlib.Path(folder))
-        rows = measure(options.build, files, options.limit)
+        rows = measure(options.build, files, options.limit, options.json)
     found = cross_overs(rows)
     if options.json:
         options.json.write_text(json.dumps({"rows": rows, "cross_overs": [list(c) for c in found]}, indent=1) + "\n")
