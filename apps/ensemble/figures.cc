@@ -200,6 +200,7 @@ std::string tail_text(const char* name, const GroupedValues& data, double from) 
 
 std::string maximum_text(const char* name, const GroupedValues& data) {
   const Estimate maximum = main_maximum(data);
+  if (std::isnan(maximum.value)) return fmt::format("{}: none. ", name);
   return fmt::format("{}: {:.1f} ± {:.1f} mg. ", name, maximum.value, maximum.error);
 }
 
@@ -256,7 +257,7 @@ Figure global(const Samples& samples, const char* id, const char* title, const c
               const char* tangential, const char* which) {
   const std::vector<Curve> curves = pair_of_methods(samples, normal, tangential);
   const double high = largest_of(curves);
-  std::string finding = "Main maximum beyond a tenth of the largest value. ";
+  std::string finding = "Main maximum between a tenth of the 99 % quantile and that. ";
   for (const Curve& c : curves) finding += maximum_text(c.name, c.data);
   return {.id = id,
           .title = title,

@@ -16,9 +16,9 @@ struct Picture {
   std::string caption;
 };
 
-/// Writes FOLDER/figures/ID.{csv,gp,svg,pdf}, FOLDER/figures/comparison.csv and FOLDER/report.html, one page with everything in it: it opens
-/// without a server and without a network. `about`: name and value of what is said about the run that made
-/// the ensemble.
+/// Writes FOLDER/figures/ID.{csv,gp,svg,pdf}, FOLDER/figures/comparison.csv and FOLDER/report.html, one page
+/// with everything in it: it opens without a server and without a network. `about`: name and value of what is
+/// said about the run that made the ensemble.
 void write_report(const std::filesystem::path& folder, const EnsembleContents& contents,
                   const std::vector<Picture>& pictures,
                   const std::vector<std::pair<std::string, std::string>>& about,

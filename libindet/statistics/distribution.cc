@@ -144,9 +144,17 @@ Estimate position_of_maximum(const GroupedValues& data, double from, double to, 
           }
           smooth[static_cast<std::size_t>(bin)] /= norm;
         }
-        const auto top = std::max_element(smooth.begin(), smooth.end()) - smooth.begin();
+        // The highest bin that is higher than its neighbours: a density that only falls has no maximum.
+        std::ptrdiff_t top = -1;
+        for (std::ptrdiff_t bin = 1; bin + 1 < n; ++bin) {
+          const double height = smooth[static_cast<std::size_t>(bin)];
+          const bool peak = height > smooth[static_cast<std::size_t>(bin - 1)] &&
+                            height >= smooth[static_cast<std::size_t>(bin + 1)];
+          if (peak && (top < 0 || height > smooth[static_cast<std::size_t>(top)])) top = bin;
+        }
+        if (top < 0) return std::numeric_limits<double>::quiet_NaN();
         double shift = 0;
-        if (top > 0 && top + 1 < n) {
+        {
           const double left = smooth[static_cast<std::size_t>(top - 1)];
           const double middle = smooth[static_cast<std::size_t>(top)];
           const double right = smooth[static_cast<std::size_t>(top + 1)];
@@ -156,6 +164,23 @@ Estimate position_of_maximum(const GroupedValues& data, double from, double to, 
         return from + (static_cast<double>(top) + 0.5 + shift) * width;
       },
       options);
+}
+
+double quantile(const GroupedValues& data, double p) {
+  std::vector<std::pair<double, double>> sorted;
+  double total = 0;
+  for (std::size_t i = 0; i < data.values.size(); ++i) {
+    if (!std::isfinite(data.values[i])) continue;
+    sorted.emplace_back(data.values[i], count_of(data, i));
+    total += count_of(data, i);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  double below = 0;
+  for (const auto& [value, count] : sorted) {
+    below += count;
+    if (below >= p * total) return value;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 Estimate fraction_between(const GroupedValues& data, double low, double high,

@@ -47,10 +47,14 @@ struct TailFit {
 };
 TailFit fit_tail(const GroupedValues& data, double from, const BootstrapOptions& options = {});
 
-/// Position of the highest maximum of a histogram with bins of `width` beyond `from`, smoothed by the weights
-/// 1, 2, 3, 2, 1, as the vertex of the parabola through the highest bin and its neighbours.
+/// Position of the highest maximum of a histogram with bins of `width` in `from` … `to`, smoothed by the
+/// weights 1, 2, 3, 2, 1, as the vertex of the parabola through the highest bin and its neighbours. NaN where
+/// no bin is higher than its neighbours.
 Estimate position_of_maximum(const GroupedValues& data, double from, double to, double width,
                              const BootstrapOptions& options = {});
+
+/// The smallest value that at least a fraction `p` of all finite values do not exceed; NaN without values.
+double quantile(const GroupedValues& data, double p);
 
 /// Fraction of the values in [low, high).
 Estimate fraction_between(const GroupedValues& data, double low, double high,

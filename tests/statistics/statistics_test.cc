@@ -91,6 +91,23 @@ TEST(Tail, WithoutValuesIsNotANumber) {
   EXPECT_TRUE(std::isnan(fit_tail(data, 5).decay.value));
 }
 
+TEST(Maximum, OfAFallingDensityThereIsNone) {
+  GroupedValues data;
+  for (int i = 0; i < 4000; ++i) data.add(-20 * std::log((i + 0.5) / 4000), i % 8);
+  EXPECT_TRUE(std::isnan(position_of_maximum(data, 5, 60, 5).value));
+}
+
+TEST(Quantile, CountsValuesAsOftenAsTheyWereFound) {
+  GroupedValues data;
+  data.add(3, 0, 97);
+  data.add(700, 0, 1);
+  data.add(5, 0, 2);
+  EXPECT_EQ(quantile(data, 0.97), 3);
+  EXPECT_EQ(quantile(data, 0.99), 5);
+  EXPECT_EQ(quantile(data, 1), 700);
+  EXPECT_TRUE(std::isnan(quantile(GroupedValues{}, 0.5)));
+}
+
 TEST(Maximum, OfANormalDistributionIsItsMean) {
   Random random(11);
   GroupedValues data;
