@@ -20,8 +20,9 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kDensity =
-    "Probability densities: the integral of each curve is one. Bars: standard error by bootstrap over the "
-    "seeds.";
+    "Probability densities, normalised over all values, those beyond the axis included. Bars: standard error "
+    "by "
+    "bootstrap over the seeds.";
 
 constexpr const char* kCanonical =
     "where many states attain an optimum, the one of smallest total normal force";
@@ -222,12 +223,26 @@ Panel panel_of(const std::vector<Curve>& curves, const char* label, bool logarit
     if (c.data.values.empty()) continue;
     panel.series.push_back(curve(c.name, c.data, width, high, c.mark, c.colour, c.thick, logarithmic));
   }
+  if (!logarithmic) {
+    for (const Series& series : panel.series) {
+      for (const double y : series.y) panel.y.high = std::max(panel.y.high, 1.15 * y);
+    }
+  }
   return panel;
 }
 
 double largest_of(const std::vector<Curve>& curves) {
   double high = 0;
   for (const Curve& c : curves) high = std::max(high, largest(c.data));
+  return high;
+}
+
+/// Where a linear axis ends: beyond it are at most 0.5 % of the values of each curve.
+double end_of_axis(const std::vector<Curve>& curves) {
+  double high = 0;
+  for (const Curve& c : curves) {
+    if (!c.data.values.empty()) high = std::fmax(high, quantile(c.data, 0.995));
+  }
   return high;
 }
 
@@ -241,8 +256,8 @@ std::vector<Curve> pair_of_methods(const Samples& samples, const char* normal, c
 Figure local(const Samples& samples) {
   const std::vector<Curve> curves = pair_of_methods(samples, "delta_R", "delta_T");
   const double high = largest_of(curves);
-  std::string finding = "Decay lengths of the tails. ";
-  for (const Curve& c : curves) finding += tail_text(c.name, c.data, 0.25 * high);
+  std::string finding = "Decay lengths of the tails, the largest tenth of the values. ";
+  for (const Curve& c : curves) finding += tail_text(c.name, c.data, quantile(c.data, 0.9));
   return {
       .id = "fig07",
       .title = "Fig. 7: local indeterminacy",
@@ -256,7 +271,7 @@ Figure local(const Samples& samples) {
 Figure global(const Samples& samples, const char* id, const char* title, const char* normal,
               const char* tangential, const char* which) {
   const std::vector<Curve> curves = pair_of_methods(samples, normal, tangential);
-  const double high = largest_of(curves);
+  const double high = end_of_axis(curves);
   std::string finding = "Main maximum between a tenth of the 99 % quantile and that. ";
   for (const Curve& c : curves) finding += maximum_text(c.name, c.data);
   return {.id = id,
@@ -280,7 +295,7 @@ Figure weak_and_strong(const Samples& samples, const char* id, const char* title
       {"R < mean, tangential", part(tangential, false), Mark::kDashed, 1, false},
       {"R > mean, normal", part(normal, true), Mark::kLine, 2, true},
       {"R > mean, tangential", part(tangential, true), Mark::kDashed, 3, true}};
-  const double high = largest_of(curves);
+  const double high = logarithmic ? largest_of(curves) : end_of_axis(curves);
   const double width = round_width(high, 40);
   std::string finding =
       fmt::format("Mean R = {:.2f} mg. In the first bin, 0 … {:g} mg: ", samples.mean_force("cd1"), width);

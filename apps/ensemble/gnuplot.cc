@@ -20,7 +20,7 @@ constexpr std::array<const char*, 8> kColours = {"#0072B2", "#E69F00", "#009E73"
                                                  "#CC79A7", "#56B4E9", "#F0E442", "#000000"};
 // Open ones, of growing size, so that points at one place are all seen: circle, square, triangle, cross.
 constexpr std::array<int, 4> kSymbols = {6, 4, 8, 2};
-constexpr std::array<double, 4> kSymbolSizes = {0.5, 0.75, 0.85, 0.6};
+constexpr std::array<double, 4> kSymbolSizes = {0.6, 0.8, 0.95, 0.65};
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -42,7 +42,7 @@ std::string style(const Series& series) {
   const char* colour = kColours[static_cast<std::size_t>(series.colour) % kColours.size()];
   if (series.mark == Mark::kPoints) {
     const auto symbol = static_cast<std::size_t>(series.symbol) % kSymbols.size();
-    return fmt::format("with points pt {} ps {} lw 1.4 lc rgb '{}'", kSymbols[symbol], kSymbolSizes[symbol],
+    return fmt::format("with points pt {} ps {} lw 1.7 lc rgb '{}'", kSymbols[symbol], kSymbolSizes[symbol],
                        colour);
   }
   const int dash = series.mark == Mark::kDashed ? 2 : series.mark == Mark::kDotted ? 3 : 1;
