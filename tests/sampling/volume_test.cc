@@ -50,6 +50,11 @@ TEST(Volume, OfSimplexAndCubeInDimension20) {
   expect_volume(box(Eigen::VectorXd::Constant(20, 0.5)), 20 * std::log(0.5), 300, 0.2);
 }
 
+TEST(Volume, OfSimplexAndCubeInDimension40) {
+  expect_volume(simplex(40), log_simplex(40), 500, 0.2);
+  expect_volume(box(Eigen::VectorXd::Constant(40, 2)), 40 * std::log(2), 500, 0.2);
+}
+
 TEST(Volume, OfAThinShearedBoxIsThatOfTheBox) {
   const int n = 6;
   Eigen::VectorXd widths(n);
