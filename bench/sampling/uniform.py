@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 
 PAPER = {"cd1": "33 ± 1.4", "cd2": "34 ± 1.3", "md1": "41 ± 1.7", "md2": "40 ± 1.5"}
-STATES = 500
+STATES = 10**6  # all of them
 
 
 def run(indet, threads, *arguments):

@@ -30,8 +30,7 @@ struct RoundedBody {
 ///
 /// Along e_j the body is the chord [t₋, t₊] with t₋ = −1/max_k(a_kj/s_k), t₊ = −1/min_k(a_kj/s_k), where
 /// s = offset + slope y > 0 are the slacks; a step changes them by t a_j, so that it costs O(K). Coordinates
-/// take turns, which leaves the distribution invariant as random choice does and mixes faster. They are
-/// rotated by the rounding, not by the walk.
+/// take turns; every step by itself leaves the distribution as it is, so that any order does.
 ///
 /// The density on the body is uniform (precision a = 0), or exp(−a ‖y‖²/2): then a level below the density of
 /// the present point is drawn first, and the chord is cut to where the density exceeds it (slice sampling).
