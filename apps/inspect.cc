@@ -251,7 +251,21 @@ void print_simulation(const Account& s) {
              fmt::format("{} mg, {} r_max", s.text_of("mean_R"), s.text_of("mean_overlap", "{:.1e}")));
 }
 
+void print_uniform_sampling(const Account& s) {
+  print_line("samples", fmt::format("{} of the uniform distribution, dimension {}, {}",
+                                    s.text_of("samples", "{:.0f}"), s.text_of("dim", "{:.0f}"),
+                                    s.text_of("converged", "{:.0f}") == "1" ? "converged" : "NOT converged"));
+  print_line("  r", fmt::format("{} ± {} mg, spread {} mg", s.text_of("r"), s.text_of("r_error", "{:.2g}"),
+                                s.text_of("spread")));
+  print_line("  chains",
+             fmt::format("{}, R-hat up to {}, at least {} effective samples", s.text_of("chains", "{:.0f}"),
+                         s.text_of("rhat", "{:.4f}"), s.text_of("ess", "{:.0f}")));
+  print_line("  centre", fmt::format("{} mg away from the packing's forces", s.text_of("start_distance")));
+  print_line("  balance", fmt::format("to {} mg", s.text_of("worst_residual", "{:.1e}")));
+}
+
 void print_sampling(const Account& s) {
+  if (s.texts.at("method") == "uniform") return print_uniform_sampling(s);
   print_line("samples", fmt::format("{} by {}, {} accepted, in {} chains", s.text_of("samples", "{:.0f}"),
                                     s.texts.at("method"), s.text_of("accepted", "{:.0f}"),
                                     s.text_of("chains", "{:.0f}")));

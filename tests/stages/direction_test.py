@@ -15,9 +15,11 @@ import unittest
 LIBRARY, COMMANDS = (pathlib.Path(sys.argv.pop()) for _ in range(2))
 
 # From first to last; a stage may see only what stands before it.
-ORDER = ["base", "statistics", "packing", "contact", "nullspace", "lp", "pivoting", "polytope", "range", "verify", "io", "report"]
+ORDER = ["base", "statistics", "packing", "contact", "nullspace", "lp", "pivoting", "polytope", "range", "sampling", "verify", "io",
+         "report"]
 HEADERS = {"base": "error.h", "statistics": "bootstrap.h", "packing": "packing.h", "contact": "contact_matrix.h", "nullspace": "null_space.h",
-           "lp": "lp_solver.h", "pivoting": "tableau.h", "polytope": "force_polytope.h", "range": "analyze.h", "verify": "verify.h",
+           "lp": "lp_solver.h", "pivoting": "tableau.h", "polytope": "force_polytope.h", "range": "analyze.h",
+           "sampling": "convex_body.h", "verify": "verify.h",
            "io": "packing_file.h", "report": "packing_picture.h", "sim": "world.h",
            "ensemble": "plan.h"}
 
