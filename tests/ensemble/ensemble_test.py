@@ -138,7 +138,9 @@ class EnsembleTest(program.ProgramTest):
     def test_an_interrupt_leaves_whole_files(self):
         process = subprocess.Popen([program.INDET, "ensemble", "--seeds", "20", "-o", "e"], cwd=self.folder,
                                    stderr=subprocess.PIPE, text=True)
-        time.sleep(1)
+        while not list((self.folder / "e/units").glob("*.h5")):
+            self.assertIsNone(process.poll(), "it ended before its first packing")
+            time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         _, error = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
