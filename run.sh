@@ -1,8 +1,15 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the main job: the force ranges of a packing that LAMMPS made.
-# Usage: ./run.sh [OUTPUT_FOLDER]    (default: out)
+# Installs what is missing, builds, and runs the main jobs: the force ranges of a packing that LAMMPS made, and the
+# ensemble of the paper with its report. Stopped, it goes on where it was.
+#   ./run.sh [OUTPUT_FOLDER]            60 seeds, 240 packings (default folder: out)
+#   ./run.sh --quick [OUTPUT_FOLDER]    4 seeds, 16 packings
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+seeds=60
+if [ "${1:-}" = --quick ]; then
+  seeds=4
+  shift
+fi
 out=${1:-out}
 
 cmake/install-packages.sh
@@ -23,6 +30,11 @@ echo "== verify"
 "$indet" export "$out/lammps.ranges.h5" --format svg --style delta-R -o "$out/lammps.delta-R.svg" >/dev/null
 "$indet" export "$out/lammps.ranges.h5" --format svg --state max-norm -o "$out/lammps.max-norm.svg" >/dev/null
 echo
+echo "== ensemble"
+"$indet" ensemble --seeds $seeds --out "$out/ensemble"
+"$indet" report "$out/ensemble"
+echo
+echo "report:   $(realpath "$out/ensemble/report.html")"
 echo "results:  $(realpath "$out/lammps.ranges.h5")"
 echo "pictures: $(realpath "$out/lammps.delta-R.svg")  (range of every contact force)"
 echo "          $(realpath "$out/lammps.max-norm.svg")  (the extremal state of largest norm)"

@@ -10,16 +10,17 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <string>
 #include <vector>
 
+#include "analysis_arguments.h"
 #include "command.h"
 #include "indet/base/tolerances.h"
 #include "indet/io/packing_file.h"
 #include "indet/io/ranges_file.h"
 #include "indet/lp/glpk_problem.h"
 #include "indet/verify/exact_check.h"
+#include "paper_work.h"
 
 namespace indet::app {
 namespace {
@@ -27,17 +28,9 @@ namespace {
 struct Options {
   std::string packing;
   std::string output;
-  std::string formulation = "auto";
-  std::string states = "canonical";
-  std::string accuracy = "standard";
+  std::string method = "lp";
+  AnalysisArguments arguments;
 };
-
-std::optional<Formulation> parse_formulation(const std::string& name) {
-  for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
-    if (name == to_string(formulation)) return formulation;
-  }
-  return {};
-}
 
 struct Statistics {
   double mean = std::nan("");
@@ -126,7 +119,9 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                          {"blocks", ranges.blocks},
                          {"sliding", ranges.sliding},
                          {"non_transmitting", ranges.non_transmitting},
+                         {"method", to_string(ranges.method)},
                          {"formulation", ranges.formulation},
+                         {"requested", ranges.requested},
                          {"objectives", ranges.objectives},
                          {"determined", ranges.determined},
                          {"solves", ranges.solves},
@@ -151,6 +146,17 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                          {"mean_d_T", number(d_T.mean)},
                          {"max_d_T", number(d_T.max)},
                          {"seconds", ranges.seconds}};
+  if (ranges.choice == ContactChoice::Kind::kSample) {
+    json["sample"] = {{"seed", ranges.sample_seed}, {"confidence", kConfidence}};
+    for (const auto& [name, estimate] :
+         {std::pair("delta_R", ranges.sample_R), {"delta_T", ranges.sample_T}}) {
+      json["sample"][name] = {{"mean", number(estimate.mean)},
+                              {"low", number(estimate.low)},
+                              {"high", number(estimate.high)},
+                              {"band", number(estimate.band)}};
+    }
+  }
+  if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges.paper);
   if (ranges.largest_norm >= 0)
     json["largest_norm"] = number(ranges.norm[ranges.largest_norm] / ranges.force_unit);
   for (const MovingDisk& disk : moving_disks(ranges)) {
@@ -178,14 +184,16 @@ void print_motion(const Packing& packing, const ForceRanges& ranges) {
 }
 
 void print_extremes(const Packing& packing, const ForceRanges& ranges) {
-  constexpr Eigen::Index kShown = 5;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(ranges.delta_R.size()));
-  std::iota(order.begin(), order.end(), 0);
+  constexpr std::size_t kShown = 5;
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index i = 0; i < ranges.delta_R.size(); ++i) {
+    if (!std::isnan(ranges.delta_R[i])) order.push_back(i);
+  }
   std::stable_sort(order.begin(), order.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return ranges.delta_R[a] > ranges.delta_R[b]; });
   fmt::print("\nlargest δR      contact     bodies        R_min     R_max     T_min     T_max   (mg)\n");
-  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(kShown, ranges.delta_R.size()); ++i) {
-    const Eigen::Index k = order[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
+    const Eigen::Index k = order[i];
     const Contact& contact = packing[ContactId(k)];
     const std::string other = contact.b.is_wall() ? "wall " + packing[contact.b.wall_id()].name
                                                   : std::to_string(packing[contact.b.disk_id()].id);
@@ -195,6 +203,15 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
     fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
                fmt::format("{}–{}", packing[contact.a].id, other), value[kMinR], value[kMaxR], value[kMinT],
                value[kMaxT]);
+  }
+}
+
+/// What the means of all contacts are, as far as the sample tells.
+void print_sample(const Packing& packing, const ForceRanges& ranges) {
+  fmt::print("\nall {} contacts, from {} of them drawn with seed {} ({:.0f} %)\n", packing.contact_count(),
+             ranges.requested, ranges.sample_seed, 100 * kConfidence);
+  for (const auto& [name, e] : {std::pair("δR", ranges.sample_R), {"δT", ranges.sample_T}}) {
+    fmt::print("  {}   mean {:>9.4g} … {:<9.4g} distribution ± {:.2g}\n", name, e.low, e.high, e.band);
   }
 }
 
@@ -223,6 +240,8 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     fmt::print("simulated state: {} sliding contacts (a non-transmitting one counts twice; there are {})\n",
                ranges.sliding, ranges.non_transmitting);
   }
+  if (ranges.choice != ContactChoice::Kind::kAll)
+    fmt::print("{} of {} contacts were asked for\n", ranges.requested, packing.contact_count());
   fmt::print("{} objectives: {} certified, {} imprecise, {} failed", ranges.objectives, ranges.certified,
              ranges.imprecise, ranges.failed);
   if (ranges.unbounded > 0) fmt::print(", {} of the certified unbounded", ranges.unbounded);
@@ -232,9 +251,11 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
   const Firmness firm = firmness(ranges);
   fmt::print("widest enclosure: {:.1e} mg; normals turned by {:.0e} move no value by more than {:.1e} mg\n",
              firm.widest_enclosure, kTurn, kTurn * firm.sensitivity);
-  fmt::print("{} linear programs, {} pivots ({}); {} extremal states, {} objectives have only one\n",
-             ranges.solves, ranges.pivots, ranges.formulation, ranges.states.rows(),
-             ranges.unique.cast<int>().sum());
+  fmt::print("{} {}, {} pivots ({}); {} extremal states, {} objectives have only one\n", ranges.solves,
+             ranges.method == Method::kLp ? "linear programs" : "solves", ranges.pivots,
+             ranges.method == Method::kLp ? ranges.formulation : to_string(ranges.method),
+             ranges.states.rows(), ranges.unique.cast<int>().sum());
+  if (ranges.method == Method::kPivotingPaper) print_paper_work(ranges.paper);
   const auto line = [](const char* name, const Eigen::VectorXd& values) {
     const Statistics s = statistics(values);
     fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
@@ -245,6 +266,7 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     line("δT", ranges.delta_T);
     line("dR", ranges.d_R);
     line("dT", ranges.d_T);
+    if (ranges.choice == ContactChoice::Kind::kSample) print_sample(packing, ranges);
     print_extremes(packing, ranges);
   }
   double total = 0;
@@ -265,13 +287,12 @@ void prove(const Packing& packing, const Context& context, ForceRanges& ranges) 
 
 int run(const Options& options, const Context& context) {
   const Packing packing = read_packing(options.packing);
-  AnalyzeOptions analysis;
-  analysis.formulation = parse_formulation(options.formulation);
-  analysis.canonical_states = options.states == "canonical";
-  analysis.threads = context.thread_count();
-  analysis.progress = context.progress();
+  AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
+  analysis.method = parse_method(options.method);
+  if (analysis.method == Method::kPivotingTableau && analysis.formulation)
+    throw UsageError("--formulation is of linear programs; --method pivoting-tableau solves none");
   ForceRanges ranges = analyze(packing, analysis);
-  if (options.accuracy == "exact") prove(packing, context, ranges);
+  if (is_exact(options.arguments)) prove(packing, context, ranges);
 
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
@@ -302,25 +323,13 @@ Command add_analyze(CLI::App& root) {
                    "The file to write (default: P.ranges.h5 beside the packing)")
       ->type_name("R.h5");
   command
-      ->add_option("--formulation", options->formulation,
-                   "How the linear programs are posed; the results are the same")
-      ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
+      ->add_option(
+          "--method", options->method,
+          "How the extrema are found: by linear programs, by the paper's walk over extremal points as "
+          "it is written there, or by the same walk on a tableau")
+      ->check(CLI::IsMember({"lp", "pivoting-paper", "pivoting-tableau"}))
       ->capture_default_str();
-  command
-      ->add_option("--extremal-states", options->states,
-                   "Which state stands for an optimum that many states attain: the one of smallest total "
-                   "normal force (canonical), or the "
-                   "vertex that the solver lands on (solver: about twice as fast; dR and dT then depend on "
-                   "the formulation)")
-      ->check(CLI::IsMember({"canonical", "solver"}))
-      ->capture_default_str();
-  command
-      ->add_option("--accuracy", options->accuracy,
-                   "standard: double precision, each value within rigorous bounds; exact: each value proven "
-                   "in rational "
-                   "arithmetic and rounded once (minutes for a hundred disks)")
-      ->check(CLI::IsMember({"standard", "exact"}))
-      ->capture_default_str();
+  add_analysis_options(*command, options->arguments, Levels::kWithExact);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

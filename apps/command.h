@@ -60,11 +60,15 @@ struct Command {
 // One file a subcommand.
 Command add_import(CLI::App& root);
 Command add_analyze(CLI::App& root);
+Command add_compare(CLI::App& root);
 Command add_inspect(CLI::App& root);
 Command add_verify(CLI::App& root);
 Command add_export(CLI::App& root);
 Command add_simulate(CLI::App& root);
 Command add_sample(CLI::App& root);
+Command add_ensemble(CLI::App& root);
+Command add_merge(CLI::App& root);
+Command add_report(CLI::App& root);
 Command add_trajectory(CLI::App& root);
 Command add_completion(CLI::App& root);
 

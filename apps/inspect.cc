@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <iostream>
 #include <limits>
@@ -13,6 +14,8 @@
 #include <vector>
 
 #include "command.h"
+#include "indet/ensemble/comparison.h"
+#include "indet/ensemble/ensemble_file.h"
 #include "indet/io/balance.h"
 #include "indet/io/packing_file.h"
 #include "indet/io/ranges_file.h"
@@ -105,6 +108,13 @@ Extremes extremes(const Values& values) {
   return result;
 }
 
+/// The largest value, infinite or not, of those that are known; 0 if there is none.
+double largest(const Eigen::VectorXd& values) {
+  double result = 0;
+  for (const double value : values) result = std::max(result, std::isnan(value) ? 0.0 : value);
+  return result;
+}
+
 /// Infinite values and NaN as text, which JSON lacks.
 nlohmann::json number(double value) {
   if (std::isfinite(value)) return value;
@@ -158,7 +168,9 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                       {"rank_ambiguous", r.rank_ambiguous},
                       {"nullity", r.nullity},
                       {"dim", r.dim},
+                      {"method", to_string(r.method)},
                       {"formulation", r.formulation},
+                      {"requested", r.requested},
                       {"objectives", r.objectives},
                       {"certified", r.certified},
                       {"unbounded", r.unbounded},
@@ -166,9 +178,9 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                       {"failed", r.failed},
                       {"states", r.states.rows()},
                       {"mean_delta_R", number(extremes(r.delta_R).mean())},
-                      {"max_delta_R", number(r.delta_R.size() > 0 ? r.delta_R.maxCoeff() : 0)},
+                      {"max_delta_R", number(largest(r.delta_R))},
                       {"mean_delta_T", number(extremes(r.delta_T).mean())},
-                      {"max_delta_T", number(r.delta_T.size() > 0 ? r.delta_T.maxCoeff() : 0)},
+                      {"max_delta_T", number(largest(r.delta_T))},
                       {"worst_primal_residual", number(r.worst_primal_residual)},
                       {"worst_dual_residual", number(r.worst_dual_residual)}};
   }
@@ -239,7 +251,21 @@ void print_simulation(const Account& s) {
              fmt::format("{} mg, {} r_max", s.text_of("mean_R"), s.text_of("mean_overlap", "{:.1e}")));
 }
 
+void print_uniform_sampling(const Account& s) {
+  print_line("samples", fmt::format("{} of the uniform distribution, dimension {}, {}",
+                                    s.text_of("samples", "{:.0f}"), s.text_of("dim", "{:.0f}"),
+                                    s.text_of("converged", "{:.0f}") == "1" ? "converged" : "NOT converged"));
+  print_line("  r", fmt::format("{} ± {} mg, spread {} mg", s.text_of("r"), s.text_of("r_error", "{:.2g}"),
+                                s.text_of("spread")));
+  print_line("  chains",
+             fmt::format("{}, R-hat up to {}, at least {} effective samples", s.text_of("chains", "{:.0f}"),
+                         s.text_of("rhat", "{:.4f}"), s.text_of("ess", "{:.0f}")));
+  print_line("  centre", fmt::format("{} mg away from the packing's forces", s.text_of("start_distance")));
+  print_line("  balance", fmt::format("to {} mg", s.text_of("worst_residual", "{:.1e}")));
+}
+
 void print_sampling(const Account& s) {
+  if (s.texts.at("method") == "uniform") return print_uniform_sampling(s);
   print_line("samples", fmt::format("{} by {}, {} accepted, in {} chains", s.text_of("samples", "{:.0f}"),
                                     s.texts.at("method"), s.text_of("accepted", "{:.0f}"),
                                     s.text_of("chains", "{:.0f}")));
@@ -258,6 +284,12 @@ void print_ranges(const ForceRanges& r) {
   print_line("  equilibrium",
              fmt::format("{} unknowns, {} equations, rank {}{}, nullity {}, dim F {}", r.unknowns,
                          r.equations, r.rank, r.rank_ambiguous ? " (ambiguous)" : "", r.nullity, r.dim));
+  if (r.choice != ContactChoice::Kind::kAll) {
+    print_line("  asked for", fmt::format("{} of {} contacts ({})", r.requested, r.outcome.rows(),
+                                          r.choice == ContactChoice::Kind::kSample
+                                              ? fmt::format("a sample, seed {}", r.sample_seed)
+                                              : "a list"));
+  }
   print_line("  objectives", fmt::format("{}: {} certified, {} unbounded, {} imprecise, {} failed",
                                          r.objectives, r.certified, r.unbounded, r.imprecise, r.failed));
   print_line("  residuals",
@@ -266,11 +298,45 @@ void print_ranges(const ForceRanges& r) {
   print_line("  delta_T", measure(r.delta_T));
   print_line("  d_R (mg)", measure(r.d_R));
   print_line("  d_T (mg)", measure(r.d_T));
-  print_line("  extremal states", fmt::format("{}, formulation {}, {} solves, {} pivots", r.states.rows(),
-                                              r.formulation, r.solves, r.pivots));
+  print_line(
+      "  extremal states",
+      fmt::format("{}, by {}, {} solves, {} pivots", r.states.rows(),
+                  r.method == Method::kLp ? "linear programs (" + r.formulation + ")" : to_string(r.method),
+                  r.solves, r.pivots));
 }
 
-int run(const std::string& path, const Context& context) {
+int inspect_ensemble(const std::string& path, const Context& context) {
+  const EnsembleContents contents = read_ensemble(path);
+  const Digests digests = compute_digests(path);
+  const FlatTable& runs = contents.tables.runs;
+  std::map<std::string, int> protocols;
+  for (std::size_t row = 0; row < runs.rows(); ++row) ++protocols[runs.text("protocol", row)];
+  const std::vector<Comparison> facts = beyond_the_paper(contents.tables);
+  if (context.json) {
+    nlohmann::json json = {{"file", path},
+                           {"packings", runs.rows()},
+                           {"contacts", contents.tables.contacts.rows()},
+                           {"protocols", protocols},
+                           {"missing", contents.missing},
+                           {"content_sha256", digests.content},
+                           {"intact", digests.match()}};
+    for (const Comparison& fact : facts) json["facts"][fact.quantity] = fact.ours;
+    std::cout << json.dump(2) << '\n';
+    return kDone;
+  }
+  print_line("ensemble", path);
+  for (const auto& [protocol, count] : protocols) print_line("  " + protocol, counted(count, "packing"));
+  print_line("  contacts", fmt::format("{}", contents.tables.contacts.rows()));
+  print_line("  missing", fmt::format("{}", contents.missing.size()));
+  for (const Comparison& fact : facts) fmt::print("  {:<30}{}\n", fact.quantity, fact.ours);
+  print_line("contents", digests.content + (digests.match() ? "" : " DIFFERS"));
+  if (!digests.match()) context.warn(path + ": its numbers are not those that were written");
+  return kDone;
+}
+
+int run(const std::string& given, const Context& context) {
+  const std::string path = std::filesystem::is_directory(given) ? given + "/ensemble.h5" : given;
+  if (file_is_ensemble(path)) return inspect_ensemble(path, context);
   const FileContents contents = read(path);
   if (context.json) {
     std::cout << to_json(path, contents).dump(2) << '\n';
@@ -303,7 +369,7 @@ int run(const std::string& path, const Context& context) {
 Command add_inspect(CLI::App& root) {
   const auto path = std::make_shared<std::string>();
   CLI::App* command = root.add_subcommand("inspect", "Show what is in a file");
-  command->add_option("file", *path, "HDF5 file")->required();
+  command->add_option("file", *path, "HDF5 file, or the folder of an ensemble")->required();
   return {command, [path](const Context& context) { return run(*path, context); }};
 }
 

@@ -8,8 +8,10 @@
 
 #include "command.h"
 #include "indet/base/error.h"
+#include "indet/ensemble/unit.h"
 #include "indet/io/sampling_file.h"
 #include "indet/sim/perturb_sampling.h"
+#include "sample_uniform.h"
 
 namespace indet::app {
 namespace {
@@ -17,35 +19,22 @@ namespace {
 struct SampleOptions {
   std::string file, output;
   std::string method = "perturb";
+  std::uint64_t seed = 0;
+  int chains = 0;  ///< 0: the default of the method
   sim::PerturbOptions perturb;
+  UniformSettings uniform;
 };
-
-SamplingRecord record_of(const SampleOptions& o, const sim::PerturbEnsemble& ensemble) {
-  SamplingRecord record;
-  record.method = o.method;
-  record.center = ensemble.center;
-  record.numbers = {{"r", ensemble.r},
-                    {"r_error", ensemble.r_error},
-                    {"spread", ensemble.spread},
-                    {"start_distance", ensemble.start_distance},
-                    {"samples", static_cast<double>(ensemble.samples.size())},
-                    {"accepted", ensemble.accepted},
-                    {"converged", ensemble.converged},
-                    {"worst_raw_residual", ensemble.worst_raw_residual},
-                    {"worst_residual", ensemble.worst_residual},
-                    {"chains", o.perturb.chains},
-                    {"width", o.perturb.width},
-                    {"seed", static_cast<double>(o.perturb.seed)}};
-  return record;
-}
 
 int run(SampleOptions o, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   const Packing packing = read_packing(o.file);
+  o.uniform.sampling.seed = o.perturb.seed = o.seed;
+  if (o.chains != 0) o.uniform.sampling.chains = o.perturb.chains = o.chains;
+  if (o.method == "uniform") return sample_uniformly(o.file, o.output, packing, o.uniform, context);
   o.perturb.threads = context.thread_count();
   const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(packing, o.perturb, context.progress());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const SamplingRecord record = record_of(o, ensemble);
+  const SamplingRecord record = record_of(ensemble, o.perturb);
   if (!o.output.empty()) {
     Provenance provenance{context.arguments, context.resolved_config, {}, {}};
     provenance.seconds["sample"] = seconds;
@@ -68,31 +57,83 @@ int run(SampleOptions o, const Context& context) {
   return all ? kDone : kUncertain;
 }
 
+void add_perturb_options(CLI::App& command, sim::PerturbOptions& perturb) {
+  const std::string group = "Options of --method perturb";
+  command.add_option("--samples", perturb.samples, "Number of solutions")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--width", perturb.width, "Forces are multiplied by numbers in 1 ± WIDTH")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--distance", perturb.distance, "Solve until balanced forces are as close as this (mg)")
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--tolerance", perturb.solver.tolerance,
+                  "... or until no force changes by more than this in a sweep (mg)")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--sweeps", perturb.solver.max_sweeps, "Most sweeps a solution")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
+  const std::string group = "Options of --method uniform";
+  command
+      .add_option(
+          "--effective", uniform.sampling.effective,
+          "Sample until R-hat <= 1.01 and every R, T and the norm have as many effective samples, in bulk "
+          "and tail")
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--limit", uniform.sampling.limit,
+                  "... or until each chain has made so many sweeps (exit status 5)")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--states", uniform.states, "Number of samples to write")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_flag("--shape", uniform.shape,
+                "Also find the diameter, the mean width and the volume of the polytope (with the ranges of "
+                "the file, or "
+                "by finding them)")
+      ->group(group);
+  command
+      .add_option("--volume-sweeps", uniform.volume_sweeps, "Sweeps of each chain and phase for the volume")
+      ->check(CLI::Range(10, 100000000))
+      ->capture_default_str()
+      ->group(group);
+}
+
 }  // namespace
 
 Command add_sample(CLI::App& root) {
   const auto options = std::make_shared<SampleOptions>();
   sim::PerturbOptions& perturb = options->perturb;
   CLI::App* command = root.add_subcommand("sample", "Sample the contact states of a packing");
-  command->add_option("file", options->file, "HDF5 file of a packing with known forces")
+  command->add_option("file", options->file, "HDF5 file of a packing; for perturb, with known forces")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("--method", options->method, "perturb: perturb the forces and solve again")
-      ->check(CLI::IsMember({"perturb"}))
-      ->capture_default_str();
-  command->add_option("--samples", perturb.samples, "Number of solutions")->capture_default_str();
   command
-      ->add_option("--chains", perturb.chains,
-                   "Chains that the samples are drawn in, each from the packing's forces")
+      ->add_option(
+          "--method", options->method,
+          "perturb: perturb the forces and solve again, as the paper does; uniform: all states of the "
+          "polytope equally likely")
+      ->check(CLI::IsMember({"perturb", "uniform"}))
       ->capture_default_str();
-  command->add_option("--width", perturb.width, "Forces are multiplied by numbers in 1 ± WIDTH")
-      ->capture_default_str();
-  command->add_option("--seed", perturb.seed, "Seed of the random numbers")->capture_default_str();
   command
-      ->add_option("--tolerance", perturb.solver.tolerance,
-                   "Largest change of a force in the last sweep (mg)")
+      ->add_option("--chains", options->chains,
+                   "Chains that the samples are drawn in (0: 1 for perturb, from the packing's forces; 4 for "
+                   "uniform, from places far apart)")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--sweeps", perturb.solver.max_sweeps, "Most sweeps a solution")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
+  add_perturb_options(*command, perturb);
+  add_uniform_options(*command, options->uniform);
   command->add_option("-o,--output", options->output, "HDF5 file to write: the packing with /sampling");
   return {command, [options](const Context& context) { return run(*options, context); }};
 }

@@ -13,9 +13,9 @@
 
 #include "command.h"
 #include "indet/base/error.h"
+#include "indet/ensemble/simulation_values.h"
 #include "indet/io/simulation_file.h"
 #include "indet/sim/scene_toml.h"
-#include "simulation_values.h"
 
 namespace indet::app {
 namespace {

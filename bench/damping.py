@@ -21,7 +21,7 @@ def simulate(indet, output, *arguments):
 
 
 def main():
-    indet = sys.argv[1] if len(sys.argv) > 1 else "build/release/apps/indet"
+    indet = sys.argv[1] if len(sys.argv) > 1 else "build/release/indet"
     seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 8
     columns = ("sliding", "mean_overlap", "contacts", "mean_R", "seconds")
     found = {"implicit": [], "explicit": []}

@@ -41,7 +41,7 @@ def mean(values):
 
 
 def main():
-    indet = sys.argv[1] if len(sys.argv) > 1 else "build/release/apps/indet"
+    indet = sys.argv[1] if len(sys.argv) > 1 else "build/release/indet"
     seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     disks = sys.argv[3] if len(sys.argv) > 3 else "95"
     results = {name: [] for name, _, _ in RUNS}

@@ -1,4 +1,5 @@
 # Every library comes from a Debian 12 package; run.sh and test.sh install what is missing.
+find_package(Boost REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(SuiteSparse REQUIRED MODULE)
 find_package(GLPK 5.0 REQUIRED MODULE)

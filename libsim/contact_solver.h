@@ -1,6 +1,11 @@
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
+
+#include "indet/sim/lanes.h"
+#include "indet/sim/sweep_order.h"
 
 namespace indet::sim {
 
@@ -24,11 +29,10 @@ namespace indet::sim {
 ///     p_n ← max(0, p_n − (u_n + C p_n + b_n)/(W_nn + C)),
 ///     p_t ← clamp(p_t − (u_t + C p_t + b_t)/(W_tt + C), ±μ p_n).
 
-/// Velocities and inverse masses of one body; a wall has inverse masses 0 and does not move. 32 bytes.
+/// Velocities and inverse masses of one body; a wall has inverse masses 0 and velocity 0.
 struct SolverBody {
   double vx = 0, vy = 0;
   double s = 0;  ///< Surface speed r ω.
-  double unused = 0;
 };
 
 struct SolverContact {
@@ -62,8 +66,46 @@ struct SweepReport {
 /// Adds the impulses that the contacts carry to the velocities: to be called once before solving.
 void apply_impulses(std::span<const SolverContact> contacts, std::span<SolverBody> bodies);
 
-/// Sweeps over the contacts in their order until `limits` are met. If no contact has friction, tangential
-/// components and surface speeds are left out altogether.
-SweepReport solve(std::span<SolverContact> contacts, std::span<SolverBody> bodies, const SweepLimits& limits);
+/// Sweeps over the contacts, two at a time and in the order of sweep_order.h. The order is kept from one
+/// solution to the next as long as the contacts are between the same bodies.
+class ContactSolver {
+ public:
+  /// Sweeps until `limits` are met. If no contact has friction, tangential components and surface speeds are
+  /// left out altogether.
+  SweepReport solve(std::span<SolverContact> contacts, std::span<SolverBody> bodies,
+                    const SweepLimits& limits);
+
+ private:
+  /// Two contacts side by side (lanes.h), and the rows of their bodies.
+  struct Pair {
+    std::array<int, 2> a, b;
+    Lanes nx, ny;
+    Lanes p_n, p_t;
+    Lanes bias_n, bias_t;
+    Lanes compliance;
+    Lanes scale_n, scale_t;
+    Lanes mu;
+    Lanes inverse_mass_a, inverse_mass_b;
+    Lanes inverse_spin_a, inverse_spin_b;
+  };
+  struct Row {
+    Lanes v{0, 0};
+    double s = 0;
+  };
+
+  void load(std::span<const SolverContact> contacts, std::span<const SolverBody> bodies);
+  void store(std::span<SolverContact> contacts, std::span<SolverBody> bodies) const;
+  /// Returns the largest change of an impulse component, or 0 without kMeasure.
+  template <bool kFriction, bool kMeasure>
+  double sweep();
+  template <bool kFriction>
+  SweepReport iterate(const SweepLimits& limits);
+
+  std::vector<ContactEnds> ends_;
+  std::vector<ContactPair> order_;  ///< Of ends_.
+  std::vector<Pair> pairs_;
+  /// One for each body, and spare ones at the end.
+  std::vector<Row> rows_;
+};
 
 }  // namespace indet::sim

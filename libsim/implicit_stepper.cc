@@ -57,7 +57,7 @@ void ImplicitStepper::step() {
   for (const ContactState& contact : previous_) change = std::max(change, contact.change);
   const double tolerance = std::max(options_.tolerance * force_unit_, options_.loosening * change);
   const SweepReport sweeps =
-      solve(solver_, bodies_, {.max_sweeps = options_.max_sweeps, .tolerance = tolerance * dt});
+      gauss_seidel_.solve(solver_, bodies_, {.max_sweeps = options_.max_sweeps, .tolerance = tolerance * dt});
   ++report_.steps;
   report_.capped_steps += sweeps.converged ? 0 : 1;
   report_.sweeps += sweeps.sweeps;

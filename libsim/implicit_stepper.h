@@ -74,6 +74,7 @@ class ImplicitStepper : public Stepper {
   std::vector<double> inverse_mass_, inverse_spin_;
   std::vector<double> speed_;
   std::vector<SolverContact> solver_;
+  ContactSolver gauss_seidel_;
   std::vector<ContactState>
       contacts_;  ///< One for each entry of solver_ during a step; those with R > 0 after it.
   std::vector<ContactState> previous_;

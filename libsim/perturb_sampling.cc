@@ -25,18 +25,30 @@ Eigen::VectorXd perturbed(const Eigen::VectorXd& forces, double width, Random& r
   return result;
 }
 
+/// Sweeps before the first polish of a solution; they double with each further one.
+constexpr int kFirstSweeps = 500;
+
 PerturbSample draw(const Packing& packing, const Eigen::VectorXd& from, int index,
                    const PerturbOptions& options) {
   Random random(options.seed, static_cast<std::uint64_t>(index));
-  const StaticForces solved = solve_statics(packing, perturbed(from, options.width, random), options.solver);
-  const Polished polished = polish(packing, solved.forces, options.polish);
+  StaticForces solved{.forces = perturbed(from, options.width, random)};
+  Polished polished;
   PerturbSample sample;
+  StaticOptions part = options.solver;
+  for (int sweeps = kFirstSweeps; sample.sweeps < options.solver.max_sweeps && !sample.converged;
+       sweeps *= 2) {
+    part.max_sweeps =
+        static_cast<int>(std::min<std::int64_t>(sweeps, options.solver.max_sweeps - sample.sweeps));
+    solved = solve_statics(packing, solved.forces, part);
+    polished = polish(packing, solved.forces, options.polish);
+    sample.sweeps += solved.sweeps;
+    const bool close = polished.balanced && polished.distance <= options.distance;
+    sample.converged = close || solved.converged;
+  }
   sample.forces = polished.forces;
-  sample.converged = solved.converged;
   sample.raw_residual = solved.residual;
   sample.residual = polished.residual;
   sample.cone_violation = polished.cone_violation;
-  sample.sweeps = solved.sweeps;
   sample.accepted = std::max(sample.residual, sample.cone_violation) <= options.accept_residual;
   return sample;
 }
@@ -80,6 +92,7 @@ std::optional<std::string> PerturbOptions::defect() const {
   if (chains < 1 || chains > samples)
     return fmt::format("chains must be in 1 … {}, but is {}", samples, chains);
   if (!(width > 0 && width <= 1)) return fmt::format("the width must be in (0, 1], but is {}", width);
+  if (!(distance >= 0)) return "the distance must not be negative";
   if (!(solver.tolerance >= 0)) return "the tolerance must not be negative";
   if (solver.max_sweeps < 1) return "sweeps must be at least 1";
   return {};

@@ -31,7 +31,10 @@ struct PerturbOptions {
   int chains = 1;  ///< In 1 … samples. Chains run in parallel.
   std::uint64_t seed = 0;
   int threads = 1;  ///< Results do not depend on it.
-  StaticOptions solver = {};
+  /// A solution is taken once balanced forces are this close to it (mg, norm over all contacts), or once the
+  /// sweeps change it by less than the solver's tolerance.
+  double distance = 0.3;
+  StaticOptions solver = {.tolerance = 1e-6, .max_sweeps = 50000};
   PolishOptions polish = {};
   double accept_residual =
       1e-9;  ///< A polished solution is accepted if it balances, and lies in the cones, to this (mg).
@@ -43,7 +46,7 @@ struct PerturbOptions {
 struct PerturbSample {
   Eigen::VectorXd forces;
   bool accepted = false;
-  bool converged = false;      ///< The iteration reached its tolerance.
+  bool converged = false;      ///< The iteration came close to balanced forces, or to rest.
   double raw_residual = -1;    ///< Before the polish (mg).
   double residual = -1;        ///< After it (mg).
   double cone_violation = -1;  ///< After it (mg).

@@ -18,7 +18,7 @@ constexpr double kCellHeight = 2.0;
 
 int row_count(const Scene& scene) { return (scene.disks + scene.columns - 1) / std::max(1, scene.columns); }
 
-Wall wall(Vector2 point, Vector2 normal, const char* name) {
+Wall wall(const Vector2& point, const Vector2& normal, const char* name) {
   return Wall{.id = 0, .point = point, .normal = normal, .name = name};
 }
 
@@ -151,12 +151,14 @@ World build(const Scene& scene) {
     const double move_x = full.jitter * room_x * random.uniform(-1, 1);
     const double move_y = full.jitter * room_y * random.uniform(-1, 1);
     const double mass = full.density * std::numbers::pi * radius * radius;
-    world.add(Disk{.id = i,
-                   .position = {(i % full.columns + 0.5) * cell_width + move_x,
-                                base + (i / full.columns + 0.5) * cell_height + move_y},
-                   .radius = radius,
-                   .mass = mass,
-                   .inertia = mass * radius * radius / 2});
+    const int column = i % full.columns;
+    const int row = i / full.columns;
+    world.add(
+        Disk{.id = i,
+             .position = {(column + 0.5) * cell_width + move_x, base + (row + 0.5) * cell_height + move_y},
+             .radius = radius,
+             .mass = mass,
+             .inertia = mass * radius * radius / 2});
   }
   return world;
 }

@@ -62,13 +62,14 @@ StaticForces solve_statics(const Packing& packing, const Eigen::VectorXd& initia
   }
   const std::vector<SolverBody> start = free_bodies(packing);
   StaticForces result;
+  ContactSolver solver;
   while (!result.converged && result.sweeps < options.max_sweeps) {
     std::vector<SolverBody> bodies = start;
     apply_impulses(contacts, bodies);
     const auto left = static_cast<int>(options.max_sweeps - result.sweeps);
     const SweepReport report =
-        solve(contacts, bodies,
-              {.max_sweeps = std::min(left, kSweepsPerRound), .tolerance = options.tolerance * unit});
+        solver.solve(contacts, bodies,
+                     {.max_sweeps = std::min(left, kSweepsPerRound), .tolerance = options.tolerance * unit});
     result.sweeps += report.sweeps;
     result.change = report.change / unit;
     result.converged = report.converged;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "indet/io/sha256.h"
+#include "indet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -490,7 +490,6 @@ Hdf5File Hdf5File::open(const fs::path& path) {
 
 Hdf5File Hdf5File::create(const fs::path& path) {
   const Silence silence;
-  static std::atomic<int> counter{0};
   auto state = std::make_unique<State>();
   state->path = path;
   std::error_code ignored;
@@ -501,8 +500,7 @@ Hdf5File Hdf5File::create(const fs::path& path) {
   if (!path.has_filename() || fs::is_directory(path, ignored)) {
     throw InputError(fmt::format("{}: is a folder; a file can only be written beside it", path.string()));
   }
-  const fs::path temporary =
-      folder / fmt::format(".{}.{}.{}.tmp", path.filename().string(), getpid(), counter++);
+  const fs::path temporary = temporary_name(path);
   const Id creation = state->own(H5Pcreate(H5P_FILE_CREATE), "properties");
   state->check(H5Pset_obj_track_times(creation.get(), false), "properties");
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -15,6 +15,8 @@ namespace {
 /// In the order of the values of Outcome.
 const EnumNames kOutcomes = {"optimal", "unbounded", "imprecise", "failed", "not_requested"};
 
+constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
+
 constexpr std::array kStatuses = {PolytopeStatus::kBounded, PolytopeStatus::kUnbounded,
                                   PolytopeStatus::kPoint, PolytopeStatus::kEmpty};
 
@@ -77,6 +79,23 @@ void for_each_table(Ranges& r, Visit visit) {
   visit("dual_residual", r.dual_residual, Label{"1", "largest reduced cost of the wrong sign"});
 }
 
+/// What the paper's method counts: attributes of /provenance/work.
+template <class Work, class Visit>
+void for_each_count(Work& work, Visit visit) {
+  // In the order of InteriorEnd and of WalkEnd.
+  constexpr std::array<const char*, kInteriorEnds> kStarts = {"start_simulated", "start_unknown",
+                                                              "start_outside", "start_tight_corner"};
+  constexpr std::array<const char*, kWalkEnds> kEnds = {"walks_none_better",      "walks_more_active",
+                                                        "walks_fewer_active",     "walks_directions_lost",
+                                                        "walks_edge_without_end", "walks_step_limit"};
+  for (std::size_t end = 0; end < kStarts.size(); ++end) visit(kStarts[end], work.starts[end]);
+  for (std::size_t end = 0; end < kEnds.size(); ++end) visit(kEnds[end], work.walks[end]);
+  visit("sliding_left", work.sliding_left);
+  visit("extremal_points", work.points);
+  visit("unexpected_points", work.unexpected);
+  visit("neighbours", work.neighbours);
+}
+
 template <class Derived>
 Shape shape_of(const Eigen::DenseBase<Derived>& array) {
   return {static_cast<std::size_t>(array.rows()), static_cast<std::size_t>(array.cols())};
@@ -137,6 +156,22 @@ void write_tables(Hdf5File& file, const ForceRanges& ranges) {
              {"1", "row of /extremal/rays along which the value grows without limit, -1 for none"});
 }
 
+/// Only where some contacts were left out.
+void write_choice(Hdf5File& file, const ForceRanges& ranges) {
+  if (ranges.choice == ContactChoice::Kind::kAll) return;
+  file.set_attribute("/ranges", "contacts", to_string(ranges.choice));
+  file.set_attribute("/ranges", "requested", ranges.requested);
+  if (ranges.choice != ContactChoice::Kind::kSample) return;
+  file.set_attribute("/ranges", "sample_seed", ranges.sample_seed);
+  file.set_attribute("/ranges", "confidence", kConfidence);
+  const auto write = [&](const std::string& name, const SampleEstimate& estimate) {
+    file.set_attribute("/ranges", "mean_" + name, std::array{estimate.mean, estimate.low, estimate.high});
+    file.set_attribute("/ranges", "band_" + name, estimate.band);
+  };
+  write("delta_R", ranges.sample_R);
+  write("delta_T", ranges.sample_T);
+}
+
 void write_extremal(Hdf5File& file, const ForceRanges& ranges) {
   file.make_group("/extremal");
   file.set_attribute("/extremal", "largest_norm", ranges.largest_norm);
@@ -152,13 +187,6 @@ void write_rays(Hdf5File& file, const ForceRanges& ranges) {
   if (ranges.rays.rows() == 0) return;
   file.write("/extremal/rays", span_of(ranges.rays), shape_of(ranges.rays),
              {"1", "directions (R_1, T_1, ..., R_M, T_M) in which forces can be added without limit"});
-}
-
-void write_work(Hdf5File& file, const ForceRanges& ranges) {
-  file.make_group("/provenance/work");
-  file.set_attribute("/provenance/work", "formulation", ranges.formulation);
-  file.set_attribute("/provenance/work", "solves", ranges.solves);
-  file.set_attribute("/provenance/work", "pivots", ranges.pivots);
 }
 
 [[noreturn]] void fail(const Hdf5File& file, const std::string& object, const std::string& reason) {
@@ -204,6 +232,33 @@ void read_tables(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges
   fill(ranges.ray, contacts, 4, file.read_integers(group + "ray", table));
 }
 
+void read_choice(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges) {
+  ranges.requested = static_cast<int>(contacts);
+  if (!file.has_attribute("/ranges", "contacts")) return;
+  const std::string choice = file.string_attribute("/ranges", "contacts");
+  if (choice == to_string(ContactChoice::Kind::kSample)) {
+    ranges.choice = ContactChoice::Kind::kSample;
+  } else if (choice == to_string(ContactChoice::Kind::kList)) {
+    ranges.choice = ContactChoice::Kind::kList;
+  } else {
+    fail(file, "/ranges@contacts", fmt::format("\"{}\" is unknown", choice));
+  }
+  const std::int64_t requested = file.integer_attribute("/ranges", "requested");
+  if (requested < 0 || requested > static_cast<std::int64_t>(contacts))
+    fail(file, "/ranges@requested", fmt::format("{} of {} contacts", requested, contacts));
+  ranges.requested = static_cast<int>(requested);
+  if (ranges.choice != ContactChoice::Kind::kSample) return;
+  ranges.sample_seed = file.integer_attribute("/ranges", "sample_seed");
+  if (file.double_attribute("/ranges", "confidence") != kConfidence)
+    fail(file, "/ranges@confidence", fmt::format("is not {}", kConfidence));
+  const auto read = [&](const std::string& name, SampleEstimate& estimate) {
+    const std::vector<double> mean = file.doubles_attribute("/ranges", "mean_" + name, 3);
+    estimate = {mean[0], mean[1], mean[2], file.double_attribute("/ranges", "band_" + name)};
+  };
+  read("delta_R", ranges.sample_R);
+  read("delta_T", ranges.sample_T);
+}
+
 void read_extremal(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges) {
   const std::size_t count = file.shape("/extremal/norm", 1)[0];
   fill(ranges.norm, count, 1, file.read_doubles("/extremal/norm", {count}));
@@ -235,7 +290,20 @@ void read_extremal(const Hdf5File& file, std::size_t contacts, ForceRanges& rang
   }
 }
 
+void read_method(const Hdf5File& file, ForceRanges& ranges) {
+  const std::string name = file.string_attribute("/provenance/work", "method");
+  const auto* const found = std::find_if(kMethods.begin(), kMethods.end(),
+                                         [&](Method method) { return name == to_string(method); });
+  if (found == kMethods.end()) fail(file, "/provenance/work@method", fmt::format("\"{}\" is unknown", name));
+  ranges.method = *found;
+  if (ranges.method != Method::kPivotingPaper) return;
+  for_each_count(ranges.paper, [&](const char* attribute, std::int64_t& value) {
+    value = file.integer_attribute("/provenance/work", attribute);
+  });
+}
+
 void read_work(const Hdf5File& file, ForceRanges& ranges) {
+  if (file.has_attribute("/provenance/work", "method")) read_method(file, ranges);
   ranges.formulation = file.string_attribute("/provenance/work", "formulation");
   ranges.solves = file.integer_attribute("/provenance/work", "solves");
   ranges.pivots = file.integer_attribute("/provenance/work", "pivots");
@@ -244,20 +312,37 @@ void read_work(const Hdf5File& file, ForceRanges& ranges) {
 
 }  // namespace
 
+void write_ranges_part(Hdf5File& file, const ForceRanges& ranges) {
+  write_equilibrium(file, ranges);
+  write_tables(file, ranges);
+  write_choice(file, ranges);
+  write_extremal(file, ranges);
+  write_rays(file, ranges);
+  file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
+}
+
+void write_work_part(Hdf5File& file, const ForceRanges& ranges) {
+  file.make_group("/provenance/work");
+  file.set_attribute("/provenance/work", "method", to_string(ranges.method));
+  file.set_attribute("/provenance/work", "formulation", ranges.formulation);
+  file.set_attribute("/provenance/work", "solves", ranges.solves);
+  file.set_attribute("/provenance/work", "pivots", ranges.pivots);
+  if (ranges.method != Method::kPivotingPaper) return;
+  for_each_count(ranges.paper, [&](const char* attribute, std::int64_t value) {
+    file.set_attribute("/provenance/work", attribute, value);
+  });
+}
+
 void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
                   const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
   write_header(file);
   write_packing_part(file, packing);
-  write_equilibrium(file, ranges);
-  write_tables(file, ranges);
-  write_extremal(file, ranges);
-  write_rays(file, ranges);
-  file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
+  write_ranges_part(file, ranges);
   Provenance all = provenance;
   all.seconds.insert(ranges.seconds.begin(), ranges.seconds.end());
   write_provenance_part(file, all);
-  write_work(file, ranges);
+  write_work_part(file, ranges);
   seal(file);
 }
 
@@ -272,6 +357,7 @@ ForceRanges read_ranges(const std::filesystem::path& path) {
   ForceRanges ranges;
   read_equilibrium(file, disks, ranges);
   read_tables(file, contacts, ranges);
+  read_choice(file, contacts, ranges);
   read_extremal(file, contacts, ranges);
   read_work(file, ranges);
   return ranges;

@@ -17,6 +17,11 @@ void write_ranges(const std::filesystem::path& path, const Packing& packing, con
 /// packing or points to a state that is not there.
 ForceRanges read_ranges(const std::filesystem::path& path);
 
+/// The parts of such a file, for the writers of files that hold more: /equilibrium, /ranges and /extremal;
+/// and what the search did, which belongs to /provenance and needs it to be there.
+void write_ranges_part(Hdf5File& file, const ForceRanges& ranges);
+void write_work_part(Hdf5File& file, const ForceRanges& ranges);
+
 /// True if the file, which must be one of indet, holds force ranges.
 bool file_has_ranges(const std::filesystem::path& path);
 

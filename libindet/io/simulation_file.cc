@@ -131,15 +131,19 @@ Trajectory read_trajectory_part(const Hdf5File& file) {
 
 }  // namespace
 
+void write_simulation_part(Hdf5File& file, const SimulationRecord& record) {
+  write_contact_columns(file, "/simulation", record.raw_contacts);
+  for (const auto& [name, value] : record.numbers) file.set_attribute("/simulation", name, value);
+  for (const auto& [name, value] : record.texts) file.set_attribute("/simulation", name, value);
+}
+
 void write_simulation(const std::filesystem::path& path, const Packing& packing,
                       const SimulationRecord& record, const Trajectory& trajectory,
                       const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
   write_header(file);
   write_packing_part(file, packing);
-  write_contact_columns(file, "/simulation", record.raw_contacts);
-  for (const auto& [name, value] : record.numbers) file.set_attribute("/simulation", name, value);
-  for (const auto& [name, value] : record.texts) file.set_attribute("/simulation", name, value);
+  write_simulation_part(file, record);
   if (!trajectory.empty()) write_trajectory_part(file, trajectory);
   write_provenance_part(file, provenance);
   seal(file);

@@ -38,6 +38,9 @@ void write_simulation(const std::filesystem::path& path, const Packing& packing,
                       const SimulationRecord& record, const Trajectory& trajectory,
                       const Provenance& provenance);
 
+/// /simulation alone, for the writers of files that hold more.
+void write_simulation_part(Hdf5File& file, const SimulationRecord& record);
+
 bool file_has_trajectory(const std::filesystem::path& path);
 /// Throws InputError if the file has none.
 Trajectory read_trajectory(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 #include "indet/base/error.h"
 
@@ -27,14 +28,29 @@ int write_all(int descriptor, const std::string& bytes) {
 
 }  // namespace
 
-void write_whole_file(const std::filesystem::path& path, const std::string& bytes) {
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
   static std::atomic<int> counter{0};
+  return path.parent_path() / fmt::format(".{}.{}.{}.tmp", path.filename().string(), getpid(), counter++);
+}
+
+void remove_leftovers(const std::filesystem::path& path) {
+  const std::string begin = "." + path.filename().string() + ".";
+  std::error_code ignored;
+  std::vector<std::filesystem::path> leftovers;
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(begin) && name.ends_with(".tmp")) leftovers.push_back(entry.path());
+  }
+  for (const std::filesystem::path& leftover : leftovers) std::filesystem::remove(leftover, ignored);
+}
+
+void write_whole_file(const std::filesystem::path& path, const std::string& bytes) {
   std::error_code ignored;
   if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
     throw InputError(fmt::format("{}: is a folder; a file cannot be written there", path.string()));
   }
-  const std::filesystem::path temporary =
-      path.parent_path() / fmt::format(".{}.{}.{}.tmp", path.filename().string(), getpid(), counter++);
+  const std::filesystem::path temporary = temporary_name(path);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     throw InputError(

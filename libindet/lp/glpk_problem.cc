@@ -9,9 +9,18 @@
 namespace indet {
 namespace {
 
-/// Counts how often GLPK's environment was freed on this thread; problems of an earlier generation no longer
-/// exist.
-thread_local std::int64_t environment_generation = 0;
+/// GLPK's memory of this thread, freed when the thread ends.
+struct Environment {
+  /// Counts how often it was freed; problems of an earlier generation no longer exist.
+  std::int64_t generation = 0;
+
+  void free() {
+    glp_free_env();
+    ++generation;
+  }
+  ~Environment() { free(); }
+};
+thread_local Environment environment;
 
 // longjmp must not skip a destructor, so the functions between setjmp and GLPK hold trivial objects only.
 void jump_back(void* where) { std::longjmp(*static_cast<std::jmp_buf*>(where), 1); }  // NOLINT
@@ -20,8 +29,7 @@ template <class Call>
 bool guarded(Call call) {
   std::jmp_buf where;
   if (setjmp(where) != 0) {  // NOLINT
-    glp_free_env();
-    ++environment_generation;
+    environment.free();
     return false;
   }
   glp_error_hook(jump_back, &where);
@@ -62,14 +70,14 @@ GlpkProblem::GlpkProblem(int rows, int columns, bool maximise) {
     if (columns > 0) glp_add_cols(problem_, columns);
     glp_set_obj_dir(problem_, maximise ? GLP_MAX : GLP_MIN);
   });
-  generation_ = environment_generation;
+  generation_ = environment.generation;
 }
 
 GlpkProblem::~GlpkProblem() {
   if (is_alive()) static_cast<void>(guarded([this] { glp_delete_prob(problem_); }));
 }
 
-bool GlpkProblem::is_alive() const { return problem_ != nullptr && generation_ == environment_generation; }
+bool GlpkProblem::is_alive() const { return problem_ != nullptr && generation_ == environment.generation; }
 
 void GlpkProblem::load(std::span<const Entry> entries) {
   const std::size_t count = entries.size();
@@ -160,10 +168,7 @@ GlpkProblem::Result GlpkProblem::solve(const Settings& settings) {
 
 std::int64_t GlpkProblem::pivots() const { return pivots_; }
 
-void free_glpk_environment() {
-  glp_free_env();
-  ++environment_generation;
-}
+double GlpkProblem::objective_value() const { return glp_get_obj_val(problem_); }
 
 const char* glpk_version() { return glp_version(); }
 

@@ -68,16 +68,14 @@ class GlpkProblem {
   /// Runs the simplex method from the present basis, freshly factorised unless keep_factors is set: the
   /// result then depends on problem and basis alone. Throws GlpkAborted.
   Result solve(const Settings& settings);
-  std::int64_t pivots() const;  ///< of the last solve
+  std::int64_t pivots() const;     ///< of the last solve
+  double objective_value() const;  ///< GLPK's own number, which benchmarks compare with what is recomputed
 
  private:
   glp_prob* problem_ = nullptr;
   std::int64_t generation_ = 0;
   std::int64_t pivots_ = 0;
 };
-
-/// Frees GLPK's memory of the calling thread; to be called at the end of a worker thread that used GLPK.
-void free_glpk_environment();
 
 /// The version of the GLPK that runs, e.g. "5.0".
 const char* glpk_version();

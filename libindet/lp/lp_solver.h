@@ -7,6 +7,7 @@
 
 #include "indet/base/tolerances.h"
 #include "indet/lp/feasible_set.h"
+#include "indet/lp/maximiser.h"
 
 namespace indet {
 
@@ -27,16 +28,6 @@ struct LpOptions {
   double time_limit = 600;                         ///< seconds a solve
 };
 
-enum class LpStatus : std::uint8_t { kOptimal, kUnbounded, kInfeasible, kFailed };
-
-/// The solver's proposal. Values are never taken from it: they are recomputed from the basis.
-struct LpAnswer {
-  LpStatus status = LpStatus::kFailed;
-  Basis basis;  ///< d inequalities, if optimal
-  std::int64_t pivots = 0;
-  int attempts = 0;  ///< rungs of the ladder that were tried
-};
-
 /// Maximises linear objectives over one FeasibleSet by GLPK, from given start vertices. Stateful only for
 /// speed: an answer depends on the arguments alone. GLPK keeps its state per thread, so a solver must be
 /// created, used and destroyed on one thread.
@@ -44,17 +35,16 @@ struct LpAnswer {
 /// Ladder when a solve fails: the formulation's own simplex from the start vertex; the other simplex from
 /// there; from scratch with GLPK's advanced basis; presolved and rescaled; then kFailed. A failed assertion
 /// inside GLPK counts as a failed rung; the problem is rebuilt.
-class LpSolver {
+class LpSolver : public Maximiser {
  public:
   /// Precondition: for kEdge the set has its implicit description. `set` must outlive the solver.
   LpSolver(const FeasibleSet& set, Formulation formulation, const LpOptions& options = {});
-  ~LpSolver();
+  ~LpSolver() override;
   LpSolver(const LpSolver&) = delete;
   LpSolver& operator=(const LpSolver&) = delete;
 
-  /// Maximises the objective, subject to x_k = 0 for k in `held`. `start`: a feasible vertex (containing
-  /// `held` for a feasible start), or empty for a cold start.
-  LpAnswer maximise(const Objective& objective, const Basis& start, std::span<const int> held = {});
+  /// An empty `start` asks for a cold start.
+  LpAnswer maximise(const Objective& objective, const Basis& start, std::span<const int> held = {}) override;
 
  private:
   struct Impl;

@@ -1,5 +1,7 @@
 #include "indet/nullspace/sparse_qr.h"
 
+#include <dlfcn.h>
+
 #include <SuiteSparseQR.hpp>
 #include <algorithm>
 #include <cmath>
@@ -12,10 +14,20 @@
 namespace indet {
 namespace {
 
+/// OpenBLAS starts threads of its own, which fronts of this size do not repay, and which fight with ours for
+/// the processors. Other libraries that provide BLAS have no such function.
+void keep_blas_on_one_thread() {
+  using SetThreads = void (*)(int);
+  static const auto set_threads =
+      reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (set_threads != nullptr) set_threads(1);
+}
+
 /// A CHOLMOD workspace; every SPQR object needs one, and it must outlive them.
 class Workspace {
  public:
   Workspace() {
+    keep_blas_on_one_thread();
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.SPQR_nthreads = 1;  // results must not depend on the number of threads

@@ -103,6 +103,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
     polytope.doubtful = polytope.doubtful || is_doubtful(interior, is_zero, scale);
     if (!is_zero && interior.slack > 0) {
       polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, null_space.rank);
+      polytope.interior = set.offset + set.slope * interior.z;
       return InteriorSet{set, interior.z};
     }
     const Eigen::VectorXd velocities = contacts.to_edges.transpose() * interior.multipliers;
@@ -175,6 +176,7 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   if (polytope.dim == 0) {
     polytope.status = PolytopeStatus::kPoint;
     polytope.lightest = set.offset;
+    polytope.bounding_multipliers.setZero(set.inequalities());
     return polytope;
   }
   RecessionRay ray = find_recession_ray(set, options);
@@ -182,6 +184,7 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   ++polytope.solves;
   polytope.doubtful = polytope.doubtful || ray.infeasibility > ray.noise;
   polytope.ray = std::move(ray.x);
+  polytope.bounding_multipliers = std::move(ray.multipliers);
   polytope.status = polytope.ray.size() > 0 ? PolytopeStatus::kUnbounded : PolytopeStatus::kBounded;
   const Vertex lightest = find_lightest_vertex(polytope.contacts, *interior, options, polytope);
   polytope.lightest = lightest.x;

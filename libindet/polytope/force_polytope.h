@@ -47,9 +47,12 @@ struct ForcePolytope {
   /// order one.
   bool doubtful = false;
   double interior_slack = 0;  ///< t of the interior point (mg): every x is at least this; capped at 1
+  Eigen::VectorXd interior;   ///< x of that point (all edges of `contacts`)
   Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `contacts`)
   std::vector<PolytopeBlock> blocks;
   Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `contacts`); empty if bounded
+  /// If bounded or a point: λ ≥ 0 such that (1 + λ)·x is the same number everywhere in F, which bounds Σx.
+  Eigen::VectorXd bounding_multipliers;
   /// If empty: virtual velocity (x, y, rω) of each disk under which the load does positive work while no
   /// contact resists [N, 3], largest entry 1.
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;

@@ -90,7 +90,15 @@ RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options
   const Vertex vertex = compute_vertex(cone, answer.basis);
   RecessionRay ray;
   ray.pivots = answer.pivots;
-  if (vertex.z.dot(total.along_z) < 0.5) return ray;
+  if (vertex.z.dot(total.along_z) < 0.5) {
+    const Eigen::VectorXd costs = vertex.multipliers(total.along_z);
+    ray.multipliers.setZero(set.inequalities());
+    for (Eigen::Index k = 0; k < costs.size(); ++k) {
+      const int inequality = vertex.basis[static_cast<std::size_t>(k)];
+      if (inequality < set.inequalities()) ray.multipliers[inequality] = std::max(0.0, costs[k]);
+    }
+    return ray;
+  }
   ray.x = vertex.x.head(set.inequalities());
   ray.infeasibility = vertex.infeasibility();
   ray.noise =

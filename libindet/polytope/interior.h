@@ -31,7 +31,10 @@ FeasibleSet truncated_recession_cone(const FeasibleSet& set);
 struct RecessionRay {
   Eigen::VectorXd x;  ///< x ≥ 0, Σx = 1; empty if the set is bounded
   double infeasibility =
-      0;             ///< max(0, −min x) as recomputed: positive where the set is unbounded but for a hair
+      0;  ///< max(0, −min x) as recomputed: positive where the set is unbounded but for a hair
+  /// λ ≥ 0 with (1 + λ)ᵀ slope = 0, where the set is bounded: then (1 + λ)·x is the same number everywhere in
+  /// it, and no smaller than Σx. Empty otherwise.
+  Eigen::VectorXd multipliers;
   double noise = 0;  ///< what rounding alone can make of the infeasibility, from the condition of the vertex
   std::int64_t pivots = 0;
 };

@@ -18,6 +18,7 @@
 #include "indet/range/enclosure.h"
 #include "indet/range/extremal_search.h"
 #include "indet/range/measures.h"
+#include "indet/range/paper_start.h"
 #include "indet/range/state_table.h"
 
 namespace indet {
@@ -61,7 +62,8 @@ struct BlockComponents {
   std::vector<std::pair<ContactId, bool>> names;  ///< contact; true: tangential
 };
 
-BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock& block) {
+BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock& block,
+                              const std::vector<int>& requested) {
   std::map<int, std::pair<Component, Component>> by_contact;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
     const Edge& edge = polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])];
@@ -71,6 +73,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
   }
   BlockComponents result;
   for (auto& [contact, pair] : by_contact) {
+    if (!std::binary_search(requested.begin(), requested.end(), contact)) continue;
     for (const bool is_tangential : {false, true}) {
       Component& component = is_tangential ? pair.second : pair.first;
       // A component may be determined although the other one of its contact is not.
@@ -91,7 +94,9 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
   SearchOptions cone_options = options;
   cone_options.formulation = Formulation::kDual;
   cone_options.canonical_states = false;
-  if (options.progress) {  // these searches may be stopped too, but settle no range yet
+  if (options.method == Method::kPivotingPaper)
+    cone_options.method = Method::kLp;  // the paper met no such case
+  if (options.progress) {               // these searches may be stopped too, but settle no range yet
     cone_options.progress = [&](std::int64_t, std::int64_t total) { return options.progress(0, total); };
   }
   const Basis apex =
@@ -122,18 +127,24 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
   }
 }
 
-void search_block(const ForcePolytope& polytope, std::size_t number, const SearchOptions& options,
-                  StateTable& states, std::vector<OptimalBasis>& optima, ForceRanges& ranges) {
+void search_block(const Packing& packing, const ForcePolytope& polytope, std::size_t number,
+                  const std::vector<int>& requested, const SearchOptions& options, StateTable& states,
+                  std::vector<OptimalBasis>& optima, ForceRanges& ranges) {
   const PolytopeBlock& block = polytope.blocks[number];
   Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
     weight[static_cast<Eigen::Index>(k)] =
         polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])].R;
   }
-  BlockComponents wanted = components_of(polytope, block);
+  BlockComponents wanted = components_of(polytope, block, requested);
   if (polytope.status == PolytopeStatus::kUnbounded)
     exclude_unbounded(block.set, options, weight, wanted, states, number, ranges);
-  const SearchResult found = search_extrema(block.set, wanted.components, weight, block.lightest, options);
+  const Basis start = options.method == Method::kPivotingPaper
+                          ? first_extremal_point(packing, polytope, block, options.lp, ranges.paper)
+                          : block.lightest;
+  const SearchResult found = search_extrema(block.set, wanted.components, weight, start, options);
+  ranges.paper += found.paper;
+  ranges.seconds["states"] += found.state_seconds;
   ranges.solves += found.solves;
   ranges.pivots += found.pivots;
   for (std::size_t c = 0; c < wanted.components.size(); ++c) {
@@ -174,8 +185,8 @@ bool proves_rays(const Packing& packing, const ForceRanges& ranges) {
 }
 
 /// Objectives that no linear program was needed for: their value is the same everywhere in F.
-void store_determined(StateTable& states, ForceRanges& ranges) {
-  for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
+void store_determined(const std::vector<int>& requested, StateTable& states, ForceRanges& ranges) {
+  for (const int i : requested) {
     for (int column = 0; column < 4; ++column) {
       if (ranges.outcome(i, column) != Outcome::kNotRequested) continue;
       ranges.outcome(i, column) = Outcome::kOptimal;
@@ -213,6 +224,12 @@ Formulation choose_formulation(int dim) {
   return dim <= kCrossOver ? Formulation::kDual : Formulation::kEdge;
 }
 
+AnalyzeOptions options_for(Accuracy accuracy) {
+  AnalyzeOptions options;
+  options.canonical_states = accuracy != Accuracy::kFast;
+  return options;
+}
+
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   ForceRanges ranges;
   Stopwatch stopwatch(ranges.seconds);
@@ -228,26 +245,34 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     largest = std::max(largest, block.set.dim());
   }
   search.formulation = options.formulation.value_or(choose_formulation(largest));
+  search.method = options.method;
   search.lp = options.lp;
   search.threads = options.threads;
   search.canonical_states = options.canonical_states;
-  ranges.formulation = to_string(search.formulation);
+  ranges.method = options.method;
+  if (options.method != Method::kPivotingTableau) ranges.formulation = to_string(search.formulation);
+  const std::vector<int> requested = chosen_contacts(options.contacts, packing.contact_count());
+  ranges.choice = options.contacts.kind;
+  ranges.requested = static_cast<int>(requested.size());
+  if (ranges.choice == ContactChoice::Kind::kSample)
+    ranges.sample_seed = static_cast<std::int64_t>(options.contacts.seed);
   std::int64_t done = 0;
   if (options.progress) {
     search.progress = [&](std::int64_t settled, std::int64_t) {
-      return options.progress({"force ranges", done + settled, 4 * packing.contact_count(), {}});
+      return options.progress({"force ranges", done + settled, 4 * ranges.requested, {}});
     };
   }
   if (polytope.status != PolytopeStatus::kEmpty) {
     StateTable states(polytope);
     std::vector<OptimalBasis> optima;
     for (std::size_t b = 0; b < polytope.blocks.size(); ++b) {
-      search_block(polytope, b, search, states, optima, ranges);
+      search_block(packing, polytope, b, requested, search, states, optima, ranges);
       done += 2 * polytope.blocks[b].set.inequalities();
     }
-    store_determined(states, ranges);
+    store_determined(requested, states, ranges);
     states.write(ranges);
     stopwatch.mark("ranges");
+    ranges.seconds["ranges"] -= ranges.seconds["states"];
     const bool proven = enclose_values(packing, polytope, optima, ranges) && proves_rays(packing, ranges);
     ranges.doubtful = ranges.doubtful || !proven;
     stopwatch.mark("enclosures");

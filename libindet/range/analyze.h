@@ -1,22 +1,37 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "indet/base/progress.h"
 #include "indet/lp/lp_solver.h"
 #include "indet/packing/packing.h"
+#include "indet/range/contact_choice.h"
 #include "indet/range/force_ranges.h"
+#include "indet/range/method.h"
 
 namespace indet {
 
+/// What an analysis is after (docs/accuracy.md has what each costs).
+enum class Accuracy : std::uint8_t {
+  kFast,     ///< ranges, certified as ever; extremal states are those where the solver lands
+  kStandard  ///< canonical extremal states too
+};
+
 struct AnalyzeOptions {
-  std::optional<Formulation> formulation;  ///< nothing: chosen by size (docs/decisions/formulation.md)
+  Method method = Method::kLp;
+  std::optional<Formulation>
+      formulation;  ///< of kLp; nothing: chosen by size (docs/decisions/formulation.md)
   LpOptions lp;
+  ContactChoice contacts;
   bool canonical_states =
       true;         ///< extremal states of smallest total normal force; false: where the solver lands
   int threads = 1;  ///< the results do not depend on it
   ProgressCallback progress;
 };
+
+/// The options of a level of accuracy.
+AnalyzeOptions options_for(Accuracy accuracy);
 
 /// The ranges of all contact forces of a packing: from equilibrium problem to measures, each value with its
 /// residuals. Precondition: find_defect(packing) is empty. Throws Interrupted, LibraryError.

@@ -29,6 +29,9 @@ void certify(const Packing& packing, ForceRanges& ranges) {
   ranges.worst_dual_residual = 0;
   for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
+      const bool is_left_out =
+          ranges.outcome(i, column) == Outcome::kNotRequested && ranges.status != PolytopeStatus::kEmpty;
+      if (is_left_out) continue;
       ++ranges.objectives;
       const int vertex = ranges.vertex(i, column);
       Outcome& outcome = ranges.outcome(i, column);

@@ -218,16 +218,12 @@ class Encloser {
       for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) length[it.row()] += 1;
     }
     if (length.size() > 0) row_length_ = length.maxCoeff();
-    centre_.u = Eigen::VectorXd::Zero(contacts_.unknowns());
     for (Eigen::Index row = 0; row < ranges_.states.rows(); ++row) {
       StateBound bound;
       bound.u = unknowns_of(ranges_.states.row(row).transpose() / contacts_.force_unit);
-      centre_.u += bound.u / static_cast<double>(ranges_.states.rows());
       states_.push_back(std::move(bound));
     }
-    // Vertices alone lie on the boundary of an unbounded polytope.
-    for (Eigen::Index row = 0; row < ranges_.rays.rows(); ++row)
-      centre_.u += unknowns_of(ranges_.rays.row(row).transpose()) / static_cast<double>(ranges_.rays.rows());
+    centre_.u = unknowns_of(contact_state(polytope_, polytope_.interior));
     centre_.shift = shift_of(centre_.u);
     Eigen::VectorXd margin(contacts_.unknowns());
     inside_ = !states_.empty() && std::isfinite(centre_.shift);
@@ -266,13 +262,23 @@ class Encloser {
     Eigen::PartialPivLU<Eigen::MatrixXd> active;
   };
 
+  /// Adds Pᵀ times a multiple of the functional u_i.
+  void add_unknown(int unknown, double weight, Eigen::VectorXd& y) const {
+    if (weight != 0) y += weight * right_inverse_.row(unknown).transpose();
+  }
+  /// … of the functional x_k.
+  void add_edge(int k, double weight, Eigen::VectorXd& y) const {
+    if (!is_stick(k)) return add_unknown(k, weight, y);
+    const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+    const int R = edge.sign > 0 ? k : k - 1;
+    add_unknown(R, weight * 0.5 / edge.R, y);
+    add_unknown(R + 1, edge.sign * weight * 0.5 / (edge.R * packing_[edge.contact].mu), y);
+  }
+
   /// y for max f, from the reduced costs at its basis.
   Eigen::VectorXd multipliers(const Functional& f, int number) const {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix_.rows());
-    const auto add = [&](int unknown, double weight) {
-      if (weight != 0) y += weight * right_inverse_.row(unknown).transpose();
-    };
-    for (const auto& [unknown, coefficient] : f.on_unknowns) add(unknown, coefficient);
+    for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
     if (number < 0) return y;
     const Factor& factor = factors_[static_cast<std::size_t>(number)];
     const PolytopeBlock& block = polytope_.blocks[factor.block];
@@ -285,16 +291,7 @@ class Encloser {
     const Eigen::VectorXd costs = factor.active.transpose().solve(gradient);
     for (Eigen::Index k = 0; k < costs.size(); ++k) {
       const int edge = block.edges[static_cast<std::size_t>(factor.basis[static_cast<std::size_t>(k)])];
-      const double lambda = std::max(0.0, -costs[k]);
-      const Edge& named = contacts_.edges[static_cast<std::size_t>(edge)];
-      if (!is_stick(edge)) {
-        add(edge, lambda);
-        continue;
-      }
-      const double mu = packing_[named.contact].mu;
-      const int R = named.sign > 0 ? edge : edge - 1;
-      add(R, lambda * 0.5 / named.R);
-      add(R + 1, named.sign * lambda * 0.5 / (named.R * mu));
+      add_edge(edge, std::max(0.0, -costs[k]), y);
     }
     return y;
   }
@@ -328,46 +325,39 @@ class Encloser {
     return -dot.value + kWiden * (dot.error + y.cwiseAbs().dot(wrench_error_));
   }
 
-  /// X_k, from the certificates of the largest normal forces.
+  /// The largest excess of any edge.
+  double worst_excess(const Functional& f, const Eigen::VectorXd& y) const {
+    double worst = 0;
+    for_each_excess(
+        f, y, [&](int, double excess) { worst = std::isnan(excess) ? kInfinity : std::max(worst, excess); });
+    return worst;
+  }
+
+  /// X_k: Σx is limited because the polytope is, and each x_k by the certificate of the largest normal force
+  /// of its contact, where that was asked for.
   void bound_strengths() {
-    const Eigen::Index count = packing_.contact_count();
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(matrix_.rows());
-    std::vector<double> ratio(static_cast<std::size_t>(count), kInfinity);
-    std::vector<double> value(static_cast<std::size_t>(count), kInfinity);
-    Functional total;
-    bool complete = std::isfinite(gain_);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Functional f = functional(i, false, 1);
-      if (f.on_edges.empty()) continue;
-      total.on_edges.insert(total.on_edges.end(), f.on_edges.begin(), f.on_edges.end());
-      if (ranges_.vertex(i, kMaxR) < 0) {
-        complete = false;
-        continue;
-      }
-      const Eigen::VectorXd y = multipliers(f, basis_of_(i, kMaxR));
-      sum += y;
-      double& worst = ratio[static_cast<std::size_t>(i)];
-      worst = 0;
-      for_each_excess(f, y, [&](int k, double excess) {
-        worst = std::max(worst, kWiden * excess / contacts_.edges[static_cast<std::size_t>(k)].R);
-        if (std::isnan(excess)) worst = kInfinity;
-      });
-      value[static_cast<std::size_t>(i)] = load_bound(y);
-    }
     strength_.setConstant(contacts_.unknowns(), kInfinity);
     total_ = kInfinity;
-    if (!complete) return;
-    double worst = 0;
-    for_each_excess(total, sum, [&](int k, double excess) {
-      worst = std::max(worst, kWiden * excess / contacts_.edges[static_cast<std::size_t>(k)].R);
-      if (std::isnan(excess)) worst = kInfinity;
-    });
-    if (!(worst < 0.5)) return;
-    total_ = std::max(0.0, kWiden * load_bound(sum) / (1 - worst));
+    if (polytope_.bounding_multipliers.size() == 0 || !std::isfinite(gain_)) return;
+    Functional sum;
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix_.rows());
+    for (int k = 0; k < contacts_.unknowns(); ++k) {
+      sum.on_edges.emplace_back(k, 1);
+      add_edge(k, 1 + polytope_.bounding_multipliers[k], y);
+    }
+    const double share = worst_excess(sum, y);
+    if (!(share < 0.5)) return;
+    total_ = std::max(0.0, kWiden * load_bound(y) / (1 - kWiden * share));
+    strength_.setConstant(total_);
     for (int k = 0; k < contacts_.unknowns(); ++k) {
       const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
-      const auto i = static_cast<std::size_t>(edge.contact.value());
-      strength_[k] = kWiden * std::max(0.0, std::min(total_, value[i] + ratio[i] * total_)) / edge.R;
+      const Eigen::Index i = edge.contact.value();
+      if (ranges_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
+      const Functional f = functional(i, false, 1);
+      const Eigen::VectorXd y_of_maximum = multipliers(f, basis_of_(i, kMaxR));
+      const double R = load_bound(y_of_maximum) + worst_excess(f, y_of_maximum) * total_;
+      for (const auto& [own, coefficient] : f.on_edges)
+        strength_[own] = std::min(total_, kWiden * kWiden * std::max(0.0, R) / coefficient);
     }
   }
 

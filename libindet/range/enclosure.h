@@ -26,20 +26,22 @@ struct OptimalBasis {
 /// with ‖Δ‖∞ ≤ η = ‖P‖∞ ‖ρ‖∞ / (1 − γ). For max g·u:
 ///
 ///   from above, by weak duality, for any y:   g·u ≤ −y·w + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y  (on edges)
-///     y = Pᵀ (g − h̃) from the reduced costs h̃ = −λ of the basis, X_k any bound of x_k over F: from the same
-///     inequality for the sum of all normal forces
-///   from below, by an admissible state: the stored one plus its Δ violates x ≥ 0 by at most η; moved by a
-///   share θ
-///     towards the mean of all stored states (plus its own Δ), which lies inside by some margin, it violates
-///     nothing
+///
+///     where y = Pᵀ (g − h̃) from the reduced costs h̃ = −λ of the basis, and X_k is any bound of x_k over F:
+///     from the same inequality for Σx, whose y comes from the proof that F is bounded
+///
+///   from below, by an admissible state: the stored one plus its Δ violates x ≥ 0 by at most η
+///
+///     moved by a share θ towards the interior point (plus its own Δ), which keeps a margin from every edge,
+///     it violates nothing
 ///
 /// and vice versa for a minimum. Roundings of the evaluation are bounded a priori (Higham, Accuracy and
 /// Stability of Numerical Algorithms, ch. 3: |fl(x·y) − x·y| ≤ n u |x|·|y| / (1 − n u)); y·w by Ogita, Rump
 /// and Oishi's Dot2.
 ///
 /// Preconditions on which the enclosure rests and that are proven elsewhere: the rank and the closed edges
-/// (exact::proves_structure). Where a step fails, that side of the enclosure is infinite. F1, bounds of
-/// unbounded polytopes: the upper side of a maximum stays infinite unless every h_k ≤ 0.
+/// (exact::proves_structure). Where a step fails, that side of the enclosure is infinite. Where F is
+/// unbounded there are no X_k: the outer side stays infinite unless every h_k ≤ 0.
 
 /// Fills lower, upper and sensitivity of every objective that has a state, from `states` and `vertex`.
 /// Objectives without an entry in `optima` are determined: the same in every state. Returns false if some

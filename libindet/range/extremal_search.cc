@@ -1,6 +1,8 @@
 #include "indet/range/extremal_search.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -8,10 +10,10 @@
 #include <optional>
 
 #include "indet/base/error.h"
-#include "indet/base/random.h"
 #include "indet/base/tolerances.h"
 #include "indet/base/worker_team.h"
-#include "indet/lp/glpk_problem.h"
+#include "indet/pivoting/neighbour_search.h"
+#include "indet/pivoting/tableau_solver.h"
 
 namespace indet {
 namespace {
@@ -20,36 +22,12 @@ namespace {
 /// of 2 cost 2 % more pivots than rounds of 1, rounds of 4 cost 12 % (docs/decisions/rounds.md).
 constexpr std::int64_t kRound = 2;
 
+/// Walks a round: they are independent, so this matters only to memory and to progress.
+constexpr std::size_t kWalks = 16;
+
 bool ties(double a, double b) {
   return std::abs(a - b) <= tolerance::kTie * std::max({1.0, std::abs(a), std::abs(b)});
 }
-
-/// A vertex with everything that the search asks of it.
-struct Visit {
-  Vertex vertex;
-  Eigen::VectorXd values;  ///< of all components
-  double weight = 0;
-  Eigen::MatrixXd secondary;  ///< 2 × d: reduced costs of minimising weight·x, and the generic functional
-  std::vector<std::optional<bool>>
-      has_length;  ///< d: whether an edge has positive length, where it was asked
-
-  bool edge_has_length(const FeasibleSet& set, int k) {
-    auto& known = has_length[static_cast<std::size_t>(k)];
-    if (!known) known = edge_length(set, vertex, k) > tolerance::kSliding;
-    return *known;
-  }
-};
-
-/// What one visited vertex proves about one objective.
-struct Finding {
-  std::int64_t objective = 0;
-  double value = 0;
-  bool optimal = false;    ///< no wrong-signed reduced cost
-  bool canonical = false;  ///< … and no better state on the optimal face
-  bool unique = false;     ///< all reduced costs positive
-  double dual_residual = 0;
-  std::vector<int> held;  ///< inequalities with positive reduced cost: they define the optimal face
-};
 
 /// One objective: component c minimised (even number) or maximised (odd number).
 struct Record {
@@ -72,41 +50,39 @@ class Search {
   Search(const FeasibleSet& set, const std::vector<Component>& components, const Eigen::VectorXd& weight,
          const SearchOptions& options)
       : set_(set),
-        components_(components),
-        weight_(weight),
         options_(options),
+        examiner_(set, components, weight, options.canonical_states),
+        walker_(set, tolerance::kSliding),
         records_(2 * components.size()),
-        solvers_(static_cast<std::size_t>(std::max(1, options.threads))),
-        team_(options.threads, [this](int worker) {
-          solvers_[static_cast<std::size_t>(worker)].reset();
-          free_glpk_environment();
-        }) {
-    rows_.resize(static_cast<Eigen::Index>(components.size()), set.dim());
+        solvers_(static_cast<std::size_t>(std::max<std::int64_t>(kRound, options.threads))),
+        team_(options.threads, [this](int worker) { solvers_[static_cast<std::size_t>(worker)].reset(); }) {
     for (std::size_t c = 0; c < components.size(); ++c) {
-      objectives_.push_back(make_objective(set, components[c].on_edges));
-      rows_.row(static_cast<Eigen::Index>(c)) = objectives_.back().along_z.transpose();
       records_[2 * c].wanted = components[c].minimise;
       records_[2 * c + 1].wanted = components[c].maximise;
     }
-    std::vector<std::pair<int, double>> light;
-    std::vector<std::pair<int, double>> generic;
-    Random random(1);  // fixed weights in [1, 2), so that no two states of a face tie
-    for (int k = 0; k < set.inequalities(); ++k) {
-      light.emplace_back(k, -weight[k]);
-      generic.emplace_back(k, -random.uniform(1, 2));
-    }
-    lightness_ = make_objective(set, light);
-    generic_ = make_objective(set, generic);
   }
 
   SearchResult run(const Basis& start) {
-    merge({visit(start)});
-    find_values();
+    if (options_.method == Method::kPivotingPaper) {
+      walk_to_values(start);
+    } else {
+      merge({visit(start)});
+      find_values();
+    }
+    const auto middle = std::chrono::steady_clock::now();
     if (options_.canonical_states) find_states();
-    return result();
+    SearchResult found = result();
+    found.state_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
+    return found;
   }
 
  private:
+  /// Where a task is worked on: by which thread, and at which place in its round.
+  struct Post {
+    int worker;
+    std::size_t place;
+  };
+
   /// What a task hands back to the calling thread.
   struct Step {
     std::int64_t objective = -1;
@@ -117,46 +93,31 @@ class Search {
     bool unique = false;
     std::optional<Visit> visited;
     std::vector<Finding> findings;
+    PaperWork paper;
   };
 
-  LpSolver& solver(int worker) {
-    auto& solver = solvers_[static_cast<std::size_t>(worker)];
-    if (!solver) solver = std::make_unique<LpSolver>(set_, options_.formulation, options_.lp);
+  /// A solver of GLPK belongs to a thread, and its answers depend on the question alone. What a tableau
+  /// answers depends, through rounding, on what it was asked before: it belongs to a place in the round.
+  Maximiser& solver(int worker, std::size_t place) {
+    const bool is_tableau = options_.method == Method::kPivotingTableau;
+    auto& solver = solvers_[is_tableau ? place : static_cast<std::size_t>(worker)];
+    if (!solver && is_tableau) {
+      solver = std::make_unique<TableauSolver>(set_, options_.pivot_rule, options_.lp);
+    } else if (!solver) {
+      solver = std::make_unique<LpSolver>(set_, options_.formulation, options_.lp);
+    }
     return *solver;
   }
 
   Record& record(std::int64_t objective) { return records_[static_cast<std::size_t>(objective)]; }
   const Record& record(std::int64_t objective) const { return records_[static_cast<std::size_t>(objective)]; }
-  static double sign_of(std::int64_t objective) { return objective % 2 == 0 ? -1.0 : 1.0; }
-
-  Objective signed_objective(std::int64_t number) const {
-    Objective objective = objectives_[static_cast<std::size_t>(number / 2)];
-    const double sign = sign_of(number);
-    objective.along_z *= sign;
-    for (auto& [index, coefficient] : objective.on_edges) coefficient *= sign;
-    return objective;
-  }
+  static double sign_of(std::int64_t objective) { return Examiner::sign_of(objective); }
 
   Step visit(const Basis& basis) const {
     Step step;
     step.status = LpStatus::kOptimal;
-    Visit visited;
-    visited.vertex = compute_vertex(set_, basis);
-    visited.values.resize(rows_.rows());
-    for (std::size_t c = 0; c < components_.size(); ++c) {
-      double value = 0;
-      for (const auto& [index, coefficient] : components_[c].on_edges)
-        value += coefficient * visited.vertex.x[index];
-      visited.values[static_cast<Eigen::Index>(c)] = value;
-    }
-    visited.weight = weight_.dot(visited.vertex.x);
-    if (options_.canonical_states) {
-      visited.secondary.resize(2, set_.dim());
-      visited.secondary.row(0) = visited.vertex.multipliers(lightness_.along_z).transpose();
-      visited.secondary.row(1) = visited.vertex.multipliers(generic_.along_z).transpose();
-    }
-    visited.has_length.resize(static_cast<std::size_t>(set_.dim()));
-    step.findings = examine(visited);
+    Visit visited = examiner_.visit(basis);
+    step.findings = examiner_.judge(candidates(visited), visited);
     step.visited = std::move(visited);
     return step;
   }
@@ -171,74 +132,13 @@ class Search {
     return !known.optimal || (options_.canonical_states && weight <= known.weight * (1 + tolerance::kTie));
   }
 
-  std::vector<Finding> examine(Visit& visited) const {
+  std::vector<std::int64_t> candidates(const Visit& visited) const {
     std::vector<std::int64_t> candidates;
-    std::vector<int> rows;
-    for (std::int64_t c = 0; c < rows_.rows(); ++c) {
-      const double value = visited.values[c];
-      bool needed = false;
-      for (const std::int64_t objective : {2 * c, 2 * c + 1}) {
-        if (is_candidate(objective, value, visited.weight)) {
-          candidates.push_back(objective);
-          needed = true;
-        }
-      }
-      if (needed) rows.push_back(static_cast<int>(c));
+    for (std::int64_t objective = 0; objective < examiner_.objectives(); ++objective) {
+      if (is_candidate(objective, visited.values[objective / 2], visited.weight))
+        candidates.push_back(objective);
     }
-    if (rows.empty()) return {};
-    const Eigen::MatrixXd chosen = rows_(rows, Eigen::all).transpose();
-    const Eigen::MatrixXd change = visited.vertex.active.transpose().solve(chosen);  // d × chosen: g S_N⁻¹
-    std::vector<Finding> findings;
-    std::size_t row = 0;
-    for (const std::int64_t objective : candidates) {
-      while (rows[row] != objective / 2) ++row;
-      findings.push_back(
-          judge(objective, visited, change.col(static_cast<Eigen::Index>(row)) * -sign_of(objective)));
-    }
-    return findings;
-  }
-
-  /// Reads the reduced costs λ (positive: leaving inequality k loses).
-  Finding judge(std::int64_t objective, Visit& visited, const Eigen::VectorXd& costs) const {
-    Finding finding;
-    finding.objective = objective;
-    finding.value = sign_of(objective) * visited.values[objective / 2];
-    const double lowest = costs.size() > 0 ? costs.minCoeff() : 0;
-    finding.dual_residual = std::max(0.0, -lowest);
-    finding.optimal = lowest >= -tolerance::kReducedCost;
-    if (!finding.optimal) return finding;
-    finding.canonical = true;
-    finding.unique = true;
-    for (Eigen::Index k = 0; k < costs.size(); ++k) {
-      if (costs[k] > tolerance::kReducedCost) {
-        finding.held.push_back(visited.vertex.basis[static_cast<std::size_t>(k)]);
-        continue;
-      }
-      finding.unique = false;
-      if (!options_.canonical_states) continue;
-      finding.canonical = finding.canonical && is_lightest_along(visited, k);
-    }
-    // Whether a degenerate vertex is alone on its face is asked later; here only the clear case counts.
-    if (options_.canonical_states && finding.canonical && !finding.unique) {
-      finding.canonical = has_free_edge(visited, finding.held);
-    }
-    return finding;
-  }
-
-  static bool is_lightest_along(const Visit& visited, Eigen::Index k) {
-    const double first = visited.secondary(0, k);
-    if (first > tolerance::kReducedCost) return true;
-    return first >= -tolerance::kReducedCost && visited.secondary(1, k) >= -tolerance::kReducedCost;
-  }
-
-  /// True if some edge of the optimal face has positive length, so that the face is more than a point.
-  bool has_free_edge(Visit& visited, const std::vector<int>& held) const {
-    for (int k = 0; k < set_.dim(); ++k) {
-      const int inequality = visited.vertex.basis[static_cast<std::size_t>(k)];
-      if (std::binary_search(held.begin(), held.end(), inequality)) continue;
-      if (visited.edge_has_length(set_, k)) return true;
-    }
-    return false;
+    return candidates;
   }
 
   /// Takes the findings of a round into the records, in the order of the round.
@@ -246,6 +146,7 @@ class Search {
     for (Step& step : steps) {
       solves_ += step.solves;
       pivots_ += step.pivots;
+      paper_ += step.paper;
       if (step.status == LpStatus::kUnbounded) record(step.objective).unbounded = true;
       if (!step.visited) continue;
       const int id = static_cast<int>(vertices_.size());
@@ -280,7 +181,8 @@ class Search {
     known.weight = weight;
     known.vertex = id;
     if (!finding.optimal) return true;
-    if (!known.optimal) {
+    // What a solver merely claims to be optimal does not tell the optimal face.
+    if (!known.optimal || known.dual_residual > tolerance::kReducedCost) {
       known.held = std::move(finding.held);
       known.proof = basis;
     }
@@ -296,7 +198,8 @@ class Search {
   void round(const std::vector<std::int64_t>& members, Work work) {
     std::vector<Step> steps(members.size());
     team_.run(static_cast<std::int64_t>(members.size()), [&](int worker, std::int64_t i) {
-      steps[static_cast<std::size_t>(i)] = work(worker, members[static_cast<std::size_t>(i)]);
+      steps[static_cast<std::size_t>(i)] =
+          work({worker, static_cast<std::size_t>(i)}, members[static_cast<std::size_t>(i)]);
     });
     merge(std::move(steps));
     report();
@@ -322,7 +225,7 @@ class Search {
     std::vector<std::int64_t> members;
     const auto flush = [&] {
       if (members.empty()) return;
-      round(members, [this](int worker, std::int64_t objective) { return solve_value(worker, objective); });
+      round(members, [this](Post post, std::int64_t objective) { return solve_value(post, objective); });
       for (const std::int64_t objective : members) {
         Record& r = record(objective);
         r.failed = !r.optimal && !r.unbounded;
@@ -338,9 +241,10 @@ class Search {
     flush();
   }
 
-  Step solve_value(int worker, std::int64_t objective) {
+  Step solve_value(Post post, std::int64_t objective) {
     const Basis& start = vertices_[static_cast<std::size_t>(record(objective).vertex)].basis;
-    const LpAnswer answer = solver(worker).maximise(signed_objective(objective), start);
+    const LpAnswer answer =
+        solver(post.worker, post.place).maximise(examiner_.signed_objective(objective), start);
     Step step;
     if (answer.status == LpStatus::kOptimal) {
       step = visit(answer.basis);
@@ -356,16 +260,60 @@ class Search {
     return step;
   }
 
+  /// Sec. II G: minima from the first extremal point, maxima from the minima, each walked to by itself.
+  void walk_to_values(const Basis& start) {
+    for (const bool maxima : {false, true}) {
+      std::vector<std::int64_t> members;
+      const auto flush = [&] {
+        if (members.empty()) return;
+        round(members, [&](Post, std::int64_t objective) { return walk_to_value(objective, start); });
+        for (const std::int64_t objective : members) record(objective).failed = !record(objective).optimal;
+        members.clear();
+      };
+      for (std::int64_t objective = maxima ? 1 : 0; objective < examiner_.objectives(); objective += 2) {
+        if (!record(objective).wanted) continue;
+        members.push_back(objective);
+        if (members.size() == kWalks) flush();
+      }
+      flush();
+    }
+  }
+
+  Step walk_to_value(std::int64_t objective, const Basis& start) const {
+    const Record& minimum = record(objective - objective % 2);
+    const bool has_minimum = objective % 2 == 1 && minimum.optimal;
+    const Walk walk =
+        walker_.walk(examiner_.signed_objective(objective),
+                     has_minimum ? vertices_[static_cast<std::size_t>(minimum.vertex)].basis : start);
+    Step step;
+    if (walk.end != WalkEnd::kDirectionsLost && walk.end != WalkEnd::kEdgeWithoutEnd &&
+        walk.end != WalkEnd::kStepLimit) {
+      step.status = LpStatus::kOptimal;
+      step.visited = examiner_.visit(walk.basis);
+      step.findings = examiner_.judge(std::array{objective}, *step.visited);
+      step.findings.front().optimal = true;  // as the method says; the residual tells whether it is right
+    }
+    step.objective = objective;
+    step.solves = 1;
+    step.pivots = walk.steps;
+    step.paper.walks[static_cast<std::size_t>(walk.end)] = 1;
+    step.paper.points = walk.steps + 1;
+    step.paper.unexpected = walk.unexpected;
+    step.paper.neighbours = walk.neighbours;
+    return step;
+  }
+
   void find_states() {
     std::vector<std::int64_t> members;
     const auto flush = [&] {
       if (members.empty()) return;
-      round(members, [this](int worker, std::int64_t objective) { return solve_state(worker, objective); });
+      round(members, [this](Post post, std::int64_t objective) { return solve_state(post, objective); });
       members.clear();
     };
     for (std::int64_t objective = 0; objective < static_cast<std::int64_t>(records_.size()); ++objective) {
       const Record& r = record(objective);
-      if (!r.wanted || !r.optimal || r.canonical) continue;
+      // Without a proof of optimality the optimal face is not known.
+      if (!r.wanted || !r.optimal || r.canonical || r.dual_residual > tolerance::kReducedCost) continue;
       members.push_back(objective);
       if (static_cast<std::int64_t>(members.size()) == kRound) flush();
     }
@@ -373,7 +321,7 @@ class Search {
   }
 
   /// The lightest state of the optimal face of a settled objective.
-  Step solve_state(int worker, std::int64_t objective) {
+  Step solve_state(Post post, std::int64_t objective) {
     const Record& known = record(objective);
     std::vector<int> held = known.held;
     Basis basis = vertices_[static_cast<std::size_t>(known.vertex)].basis;
@@ -381,8 +329,8 @@ class Search {
     std::int64_t solves = 0;
     std::int64_t pivots = 0;
     bool found = true;
-    for (const Objective* functional : {&lightness_, &generic_}) {
-      const LpAnswer answer = solver(worker).maximise(*functional, basis, held);
+    for (const Objective* functional : {&examiner_.lightness(), &examiner_.generic()}) {
+      const LpAnswer answer = solver(post.worker, post.place).maximise(*functional, basis, held);
       ++solves;
       pivots += answer.pivots;
       found = answer.status == LpStatus::kOptimal;
@@ -408,8 +356,8 @@ class Search {
     if (found) {
       step = visit(basis);
       step.settles_state = true;
-      step.unique =
-          !has_free_edge(*step.visited, known.held) && is_point(worker, basis, known.held, solves, pivots);
+      step.unique = !examiner_.has_free_edge(*step.visited, known.held) &&
+                    is_point(post, basis, known.held, solves, pivots);
     }
     step.objective = objective;
     step.solves = solves;
@@ -419,18 +367,19 @@ class Search {
 
   /// True if the face {x_k = 0, k ∈ held} is the given vertex alone: the generic functional is constant on
   /// it. Asked only at degenerate vertices.
-  bool is_point(int worker, const Basis& basis, const std::vector<int>& held, std::int64_t& solves,
+  bool is_point(Post post, const Basis& basis, const std::vector<int>& held, std::int64_t& solves,
                 std::int64_t& pivots) {
-    Objective opposite = generic_;
+    Objective opposite = examiner_.generic();
     opposite.along_z *= -1;
     for (auto& [index, coefficient] : opposite.on_edges) coefficient *= -1;
     std::vector<double> values;
-    for (const Objective* functional : std::initializer_list<const Objective*>{&generic_, &opposite}) {
-      const LpAnswer answer = solver(worker).maximise(*functional, basis, held);
+    for (const Objective* functional :
+         std::initializer_list<const Objective*>{&examiner_.generic(), &opposite}) {
+      const LpAnswer answer = solver(post.worker, post.place).maximise(*functional, basis, held);
       ++solves;
       pivots += answer.pivots;
       if (answer.status != LpStatus::kOptimal) return false;
-      values.push_back(generic_.along_z.dot(compute_vertex(set_, answer.basis).z));
+      values.push_back(examiner_.generic().along_z.dot(compute_vertex(set_, answer.basis).z));
     }
     return std::abs(values[0] - values[1]) <= tolerance::kSliding * std::max(1.0, std::abs(values[0]));
   }
@@ -439,6 +388,7 @@ class Search {
     SearchResult result;
     result.solves = solves_;
     result.pivots = pivots_;
+    result.paper = paper_;
     std::vector<int> number(vertices_.size(), -1);
     for (std::int64_t objective = 0; objective < static_cast<std::int64_t>(records_.size()); ++objective) {
       const Record& r = record(objective);
@@ -451,11 +401,7 @@ class Search {
         }
         extremum.status = Extremum::Status::kOptimal;
         extremum.vertex = id;
-        extremum.value = 0;
-        for (const auto& [index, coefficient] :
-             components_[static_cast<std::size_t>(objective / 2)].on_edges) {
-          extremum.value += coefficient * result.vertices[static_cast<std::size_t>(id)].x[index];
-        }
+        extremum.value = examiner_.value_of(objective / 2, result.vertices[static_cast<std::size_t>(id)].x);
         extremum.dual_residual = r.dual_residual;
         extremum.proof = r.proof;
         extremum.unique = r.unique;
@@ -468,18 +414,15 @@ class Search {
   }
 
   const FeasibleSet& set_;
-  const std::vector<Component>& components_;
-  const Eigen::VectorXd& weight_;
   const SearchOptions& options_;
-  Eigen::MatrixXd rows_;  ///< components × d
-  std::vector<Objective> objectives_;
-  Objective lightness_;
-  Objective generic_;
+  Examiner examiner_;
+  NeighbourSearch walker_;
   std::vector<Record> records_;
   std::vector<Vertex> vertices_;  ///< without their factors
   std::int64_t solves_ = 0;
   std::int64_t pivots_ = 0;
-  std::vector<std::unique_ptr<LpSolver>> solvers_;
+  PaperWork paper_;
+  std::vector<std::unique_ptr<Maximiser>> solvers_;
   WorkerTeam team_;  // last: its threads use the members above
 };
 

@@ -3,24 +3,22 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "indet/lp/feasible_set.h"
 #include "indet/lp/lp_solver.h"
 #include "indet/lp/vertex.h"
+#include "indet/pivoting/pivot_rule.h"
+#include "indet/range/examiner.h"
+#include "indet/range/method.h"
+#include "indet/range/paper_work.h"
 
 namespace indet {
 
-/// A linear functional e·x whose minimum and maximum are wanted: a force component of one contact.
-struct Component {
-  std::vector<std::pair<int, double>> on_edges;  ///< (index into x, coefficient)
-  bool minimise = true;
-  bool maximise = true;
-};
-
 struct SearchOptions {
-  Formulation formulation = Formulation::kDual;
+  Method method = Method::kLp;
+  Formulation formulation = Formulation::kDual;     ///< of kLp, and of the states of kPivotingPaper
+  PivotRule pivot_rule = PivotRule::kSteepestEdge;  ///< of kPivotingTableau
   LpOptions lp;
   int threads = 1;
   /// Take the state of smallest `weight` on each optimal face, so that every method gives the same one; else
@@ -48,15 +46,20 @@ struct SearchResult {
   std::vector<Vertex> vertices;            ///< those that some extremum points to, without their factors
   std::int64_t solves = 0;
   std::int64_t pivots = 0;
+  PaperWork paper;           ///< of kPivotingPaper: its walks
+  double state_seconds = 0;  ///< of the time, what the canonical states took
 };
 
 /// Minima and maxima of many functionals over one bounded, full-dimensional FeasibleSet.
 ///
-/// Each linear program starts from the known vertex with the best value of its objective; a basis once
-/// feasible stays feasible. Every vertex reached is then tried on all objectives that it improves or ties:
-/// with the d active inequalities N, the row −g S_N⁻¹ holds the reduced costs of objective g, and a row
-/// without a negative entry proves the vertex optimal. Only those rows are computed that can change
-/// something, so this costs far less than the whole product.
+/// kLp and kPivotingTableau: each objective starts from the known vertex with the best value of its
+/// objective; a basis once feasible stays feasible. Every vertex reached is then tried on all objectives that
+/// it improves or ties: with the d active inequalities N, the row −g S_N⁻¹ holds the reduced costs of
+/// objective g, and a row without a negative entry proves the vertex optimal. Only those rows are computed
+/// that can change something, so this costs far less than the whole product.
+///
+/// kPivotingPaper: each objective is walked to by itself, a minimum from `start`, the maximum from that
+/// minimum, and nothing is learned from other objectives. Canonical states are then found by linear programs.
 ///
 /// Objectives are worked on in rounds of fixed size, whose members start from what was known before the
 /// round: the result does not depend on the number of threads.

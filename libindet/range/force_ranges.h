@@ -10,6 +10,9 @@
 
 #include "indet/packing/packing.h"
 #include "indet/polytope/force_polytope.h"
+#include "indet/range/contact_choice.h"
+#include "indet/range/method.h"
+#include "indet/range/paper_work.h"
 
 namespace indet {
 
@@ -58,6 +61,12 @@ struct ForceRanges {
       -1;  ///< Sliding contacts of the simulated state, non-transmitting ones counted twice; −1 if unknown.
   int non_transmitting = -1;  ///< Non-transmitting contacts of the simulated state; −1 if unknown.
 
+  // The contacts that were asked for. All others have NaN, −1 and kNotRequested in every field below.
+  ContactChoice::Kind choice = ContactChoice::Kind::kAll;
+  int requested = -1;                 ///< How many contacts.
+  std::int64_t sample_seed = -1;      ///< Of a sample.
+  SampleEstimate sample_R, sample_T;  ///< δR and δT of all contacts, estimated from a sample.
+
   // One row a contact, columns R_min, R_max, T_min, T_max.
   Table4<double> value;         ///< ±inf where unbounded, NaN where not found.
   Table4<double> lower, upper;  ///< Enclosure of the value.
@@ -92,7 +101,9 @@ struct ForceRanges {
       motion;  ///< [N, 3] virtual velocity x, y and r·ω of each disk when F is empty.
 
   // Work done.
-  std::string formulation;
+  Method method = Method::kLp;
+  std::string formulation;  ///< Of the linear programs, "" where a tableau did without.
+  PaperWork paper;          ///< Only of Method::kPivotingPaper.
   std::int64_t objectives = 0, solves = 0, pivots = 0, determined = 0;
   std::int64_t certified = 0, imprecise = 0, failed = 0, unbounded = 0;
   double worst_primal_residual = kNaN, worst_dual_residual = kNaN;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "indet/base/tolerances.h"
 #include "indet/contact/contact_matrix.h"
@@ -14,6 +15,19 @@ double relative_position(double simulated, double minimum, double maximum, doubl
   const double width = maximum - minimum;
   if (!std::isfinite(width) || !(width > tolerance::kSliding * force_unit)) return ForceRanges::kNaN;
   return (simulated - minimum) / width;
+}
+
+/// From the contacts of a sample; NaN if a range was not found, or there is none.
+SampleEstimate estimate_from_requested(const ForceRanges& ranges, const Eigen::VectorXd& measure) {
+  std::vector<double> values;
+  bool is_complete = ranges.status != PolytopeStatus::kEmpty && ranges.requested > 0;
+  for (Eigen::Index i = 0; i < measure.size(); ++i) {
+    if (ranges.outcome(i, kMinR) == Outcome::kNotRequested) continue;
+    values.push_back(measure[i]);
+    is_complete = is_complete && !std::isnan(measure[i]);
+  }
+  if (!is_complete) return {ForceRanges::kNaN, ForceRanges::kNaN, ForceRanges::kNaN, ForceRanges::kNaN};
+  return estimate_from_sample(values, static_cast<int>(measure.size()));
 }
 
 }  // namespace
@@ -45,6 +59,10 @@ void compute_measures(const Packing& packing, ForceRanges& ranges) {
     ranges.d_T[i] = distance(vertex[kMaxT], vertex[kMinT]);
     ranges.R_star[i] = relative_position(contact.R, value[kMinR], value[kMaxR], unit);
     ranges.T_star[i] = relative_position(contact.T, value[kMinT], value[kMaxT], unit);
+  }
+  if (ranges.choice == ContactChoice::Kind::kSample) {
+    ranges.sample_R = estimate_from_requested(ranges, ranges.delta_R);
+    ranges.sample_T = estimate_from_requested(ranges, ranges.delta_T);
   }
   if (packing.has_simulated_forces()) {
     const CoulombCount coulomb = count_coulomb(packing, packing.simulated_forces(), tolerance::kSliding);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "indet/base/error.h"
@@ -214,7 +215,7 @@ class Verifier {
     std::int64_t counts[5] = {};
     for (const Outcome outcome : ranges_.outcome.reshaped()) ++counts[static_cast<int>(outcome)];
     equal_count(ranges_.objectives,
-                ranges_.status == PolytopeStatus::kEmpty ? ranges_.objectives : 4 * packing_.contact_count(),
+                ranges_.status == PolytopeStatus::kEmpty ? ranges_.objectives : 4 * ranges_.requested,
                 "objectives");
     equal_count(ranges_.unbounded, counts[static_cast<int>(Outcome::kUnbounded)], "unbounded");
     equal_count(ranges_.certified, counts[static_cast<int>(Outcome::kOptimal)] + ranges_.unbounded,
@@ -222,6 +223,52 @@ class Verifier {
     equal_count(ranges_.imprecise, counts[static_cast<int>(Outcome::kImprecise)], "imprecise");
     equal_count(ranges_.failed, counts[static_cast<int>(Outcome::kFailed)], "failed");
     check_sliding();
+    check_choice();
+  }
+
+  void check_choice() {
+    if (ranges_.status == PolytopeStatus::kEmpty) return;
+    std::vector<double> delta_R;
+    std::vector<double> delta_T;
+    for (Eigen::Index i = 0; i < ranges_.outcome.rows(); ++i) {
+      const auto left_out = (ranges_.outcome.row(i) == Outcome::kNotRequested).count();
+      require(left_out == 0 || left_out == 4, "contact {}: only some of its objectives were left out", i);
+      if (left_out > 0) continue;
+      delta_R.push_back(ranges_.delta_R[i]);
+      delta_T.push_back(ranges_.delta_T[i]);
+    }
+    equal_count(ranges_.requested, static_cast<std::int64_t>(delta_R.size()), "requested");
+    if (ranges_.choice != ContactChoice::Kind::kSample) return;
+    require(ranges_.sample_seed >= 0, "sample_seed: {} is stored", ranges_.sample_seed);
+    check_estimate(ranges_.sample_R, delta_R, "delta_R");
+    check_estimate(ranges_.sample_T, delta_T, "delta_T");
+  }
+
+  /// The mean of a sample; its interval by the variance of pairs, Σ (x_i − x_j)² / 2K(K − 1).
+  void check_estimate(const SampleEstimate& stored, const std::vector<double>& values,
+                      const std::string& name) {
+    const auto count = static_cast<double>(values.size());
+    const double left_out = 1 - count / packing_.contact_count();
+    double sum = 0;
+    double pairs = 0;
+    for (const double a : values) {
+      sum += a;
+      for (const double b : values) pairs += (a - b) * (a - b);
+    }
+    const double mean = values.empty() ? ForceRanges::kNaN : sum / count;
+    const double variance = pairs / (2 * count * (count - 1));
+    double half = left_out > 0 ? ForceRanges::kNaN : 0;
+    if (left_out > 0 && count > 1 && std::isfinite(mean)) {
+      const boost::math::students_t student(count - 1);
+      half = boost::math::quantile(boost::math::complement(student, (1 - kConfidence) / 2)) *
+             std::sqrt(variance * left_out / count);
+    }
+    const double band = std::sqrt(-std::log((1 - kConfidence) / 2) / 2 *
+                                  (1 / count - (1 - 1 / count) / packing_.contact_count()));
+    equal(stored.mean, mean, "mean_" + name);
+    equal(stored.low, mean - half, "lower end of mean_" + name);
+    equal(stored.high, mean + half, "upper end of mean_" + name);
+    equal(stored.band, std::isnan(mean) ? mean : (left_out > 0 ? band : 0), "band_" + name);
   }
 
   void check_sliding() {

@@ -59,6 +59,8 @@ class Completion(program.ProgramTest):
 
     def test_values_of_options(self):
         self.assertEqual(self.complete("indet", "analyze", "--formulation", ""), {"auto", "nullspace", "dual", "edge"})
+        self.assertEqual(self.complete("indet", "analyze", "--method", "p"), {"pivoting-paper", "pivoting-tableau"})
+        self.assertEqual(self.complete("indet", "compare", "--accuracy", ""), {"fast", "standard"})
         self.assertEqual(self.complete("indet", "export", "p.h5", "--format", "s"), {"svg"})
         self.assertEqual(self.complete("indet", "completion", ""), {"bash"})
 

@@ -80,7 +80,10 @@ class Tamper(program.ProgramTest):
         with h5py.File(self.folder / "r.h5") as file:
             middle = file["extremal/states"][()].mean(axis=0).reshape(-1, 2).tolist()
         self.packing(program.pyramid(forces=middle), name="q")
-        self.run_indet("analyze", "q.h5", "-o", "good.h5")
+        self.analyze()
+
+    def analyze(self, *options):
+        self.run_indet("analyze", "q.h5", "-o", "good.h5", *options)
         self.run_indet("verify", "good.h5")
         with h5py.File(self.folder / "good.h5") as file:
             self.places = numbers_of(file)
@@ -118,8 +121,18 @@ class Tamper(program.ProgramTest):
             file["ranges"].attrs.modify("sha256", digest(file, ["extremal", "ranges"]))
             file.attrs.modify("content_sha256", digest(file, [name for name in file if name != "provenance"]))
 
-        results = [(path, attribute) for path, attribute in self.places
-                   if path.split("/")[0] in ("ranges", "extremal", "equilibrium")]
+        self.assertEqual(self.unnoticed_with_a_forged_digest(("ranges", "extremal", "equilibrium"), forge),
+                         GUARDED_BY_THE_DIGEST_ALONE)
+        # Of a sample of contacts, what tells about the others.
+        self.analyze("--contacts", "sample:3", "--seed", "4")
+        sampled = {attribute for path, attribute in self.places if path == "ranges"}
+        self.assertEqual(sampled, {"requested", "sample_seed", "confidence", "mean_delta_R", "band_delta_R",
+                                   "mean_delta_T", "band_delta_T"})
+        self.assertEqual(self.unnoticed_with_a_forged_digest(("ranges",), forge) - GUARDED_BY_THE_DIGEST_ALONE,
+                         {"ranges@sample_seed"})
+
+    def unnoticed_with_a_forged_digest(self, groups, forge):
+        results = [(path, attribute) for path, attribute in self.places if path.split("/")[0] in groups]
         unnoticed = []
         for path, attribute in results:
             self.verify_changed(path, attribute, forge)
@@ -128,7 +141,7 @@ class Tamper(program.ProgramTest):
             self.assertNotIn("content_sha256", done.stdout)
             if done.returncode == 0:
                 unnoticed.append(path if attribute is None else f"{path}@{attribute}")
-        self.assertEqual(set(unnoticed), GUARDED_BY_THE_DIGEST_ALONE)
+        return set(unnoticed)
 
 
 if __name__ == "__main__":

@@ -140,7 +140,7 @@ class Samples(unittest.TestCase):
         self.assertEqual(list(group.attrs["argv"]), ["indet", "analyze"])
         self.assertEqual(group["libraries"].attrs["GLPK"], "5.0")
         self.assertEqual(dict(group["timings"].attrs), {"ranges": 1.5, "rank": 0.25, "read": 0.5})
-        self.assertEqual(dict(group["work"].attrs), {"formulation": "edge", "solves": 11, "pivots": 57})
+        self.assertEqual(dict(group["work"].attrs), {"method": "lp", "formulation": "edge", "solves": 11, "pivots": 57})
 
     def test_digests_as_documented(self):
         snippet = re.search(r"```python\n(.*?)```", pathlib.Path(FORMAT).read_text(), re.DOTALL).group(1)

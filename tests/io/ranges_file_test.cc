@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 
+#include "indet/io/hdf5_file.h"
 #include "io/sample.h"
 #include "support/temporary_folder.h"
 
@@ -158,6 +161,54 @@ TEST(RangesFile, EveryFieldComesBack) {
   EXPECT_EQ(read.worst_primal_residual, written.worst_primal_residual);
   EXPECT_EQ(read.worst_dual_residual, written.worst_dual_residual);
   EXPECT_EQ(read.seconds, (std::map<std::string, double>{{"rank", 0.25}, {"ranges", 1.5}, {"write", 0.125}}));
+}
+
+TEST(RangesFile, AChoiceOfContactsComesBack) {
+  const test::TemporaryFolder folder;
+  ForceRanges written = test::sample_ranges();
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  EXPECT_EQ(read_ranges(folder / "r.h5").choice, ContactChoice::Kind::kAll);
+  EXPECT_EQ(read_ranges(folder / "r.h5").requested, 5);
+  EXPECT_EQ(read_ranges(folder / "r.h5").method, Method::kLp);
+  written.choice = ContactChoice::Kind::kSample;
+  written.requested = 3;
+  written.sample_seed = 12;
+  written.sample_R = {1.5, 1.25, 1.75, 0.5};
+  written.sample_T = {2.5, 2.25, 2.75, 0.25};
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  const ForceRanges read = read_ranges(folder / "r.h5");
+  EXPECT_EQ(read.choice, written.choice);
+  EXPECT_EQ(read.requested, 3);
+  EXPECT_EQ(read.sample_seed, 12);
+  const auto numbers = [](const SampleEstimate& e) { return std::array{e.mean, e.low, e.high, e.band}; };
+  EXPECT_EQ(numbers(read.sample_R), numbers(written.sample_R));
+  EXPECT_EQ(numbers(read.sample_T), numbers(written.sample_T));
+  written.requested = 6;
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },
+              ThrowsMessage<Hdf5ReadError>(HasSubstr("/ranges@requested: 6 of 5 contacts")));
+}
+
+TEST(RangesFile, WhatThePaperCountsComesBack) {
+  const test::TemporaryFolder folder;
+  ForceRanges written = test::sample_ranges();
+  written.method = Method::kPivotingPaper;
+  std::int64_t number = 1;
+  for (std::int64_t& count : written.paper.starts) count = number++;
+  for (std::int64_t& count : written.paper.walks) count = number++;
+  written.paper.sliding_left = number++;
+  written.paper.points = number++;
+  written.paper.unexpected = number++;
+  written.paper.neighbours = number++;
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  const ForceRanges read = read_ranges(folder / "r.h5");
+  EXPECT_EQ(read.method, Method::kPivotingPaper);
+  EXPECT_EQ(read.paper.starts, written.paper.starts);
+  EXPECT_EQ(read.paper.walks, written.paper.walks);
+  EXPECT_EQ(read.paper.sliding_left, written.paper.sliding_left);
+  EXPECT_EQ(read.paper.points, written.paper.points);
+  EXPECT_EQ(read.paper.unexpected, written.paper.unexpected);
+  EXPECT_EQ(read.paper.neighbours, written.paper.neighbours);
 }
 
 TEST(RangesFile, AnEmptyPolytopeKeepsItsMotion) {

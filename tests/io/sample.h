@@ -112,6 +112,7 @@ inline ForceRanges sample_ranges() {
     ranges.norm[k] = 7.0 - k;
     for (int j = 0; j < 3; ++j) ranges.active(k, j) = k + j;
   }
+  ranges.requested = kContacts;
   ranges.largest_norm = 6;
   ranges.rays = Eigen::RowVectorXd::LinSpaced(2 * kContacts, 0, 9);
   ranges.ray.setConstant(kContacts, 4, -1);

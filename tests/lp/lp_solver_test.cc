@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <ostream>
 #include <string>
 
 #include "indet/base/random.h"
@@ -13,6 +14,9 @@
 #include "support/sets.h"
 
 namespace indet {
+
+void PrintTo(Formulation formulation, std::ostream* stream) { *stream << to_string(formulation); }
+
 namespace {
 
 class Formulations : public testing::TestWithParam<Formulation> {};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ostream>
 
 #include "indet/base/error.h"
 
@@ -38,6 +39,8 @@ struct BadPacking {
   int index;
   const char* reason;
 };
+
+void PrintTo(const BadPacking& bad, std::ostream* stream) { *stream << bad.name; }
 
 class ValidateBad : public ::testing::TestWithParam<BadPacking> {};
 

@@ -129,8 +129,11 @@ class SimulateTest(unittest.TestCase):
     def test_interrupted_run_resumes_to_the_same_bytes(self):
         run = ["simulate", "--protocol", "cd1", "--disks", "120", "--every", "2"]
         self.run_indet(*run, "-o", "whole.h5")
-        process = subprocess.Popen([INDET, *run, "-o", "p.h5"], cwd=self.folder, stderr=subprocess.DEVNULL)
-        time.sleep(0.7)
+        process = subprocess.Popen([INDET, *run, "--checkpoint", "0.1", "-o", "p.h5"], cwd=self.folder,
+                                   stderr=subprocess.DEVNULL)
+        while not (self.folder / "p.h5.checkpoint").exists():
+            self.assertIsNone(process.poll(), "it ended before its first checkpoint")
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(60), 128 + signal.SIGINT)
         self.assertFalse((self.folder / "p.h5").exists())

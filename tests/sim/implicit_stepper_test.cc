@@ -91,7 +91,8 @@ TEST(ContactSolver, SolutionFulfilsTheContactConditions) {
       contacts.push_back(c);
     }
     // Masses belong to bodies; here each contact sees its own, which the conditions do not care about.
-    const SweepReport report = solve(contacts, bodies, {.max_sweeps = 200000, .tolerance = 1e-14});
+    const SweepReport report =
+        ContactSolver().solve(contacts, bodies, {.max_sweeps = 200000, .tolerance = 1e-14});
     ASSERT_TRUE(report.converged) << "seed " << seed;
     for (const SolverContact& c : contacts) {
       const SolverBody& a = bodies[static_cast<std::size_t>(c.a)];

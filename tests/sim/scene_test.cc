@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "indet/base/error.h"
 #include "indet/sim/scene_toml.h"
 #include "sim/worlds.h"
@@ -66,6 +68,8 @@ struct BadScene {
   void (*spoil)(Scene&);
   const char* reason;
 };
+
+void PrintTo(const BadScene& scene, std::ostream* stream) { *stream << scene.name; }
 
 class SceneBad : public ::testing::TestWithParam<BadScene> {};
 

@@ -1,0 +1,135 @@
+#include "analysis_arguments.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "configuration.h"
+
+namespace indet::app {
+namespace {
+
+/// All of the text as a number ≥ 0.
+std::optional<int> parse_number(const std::string& text) {
+  int number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end || number < 0) return {};
+  return number;
+}
+
+[[noreturn]] void refuse_contacts(const std::string& text) {
+  throw UsageError(fmt::format(
+      "--contacts: '{}' is neither all, nor sample:K, nor numbers and spans like 3,7,12-20", text));
+}
+
+/// "3,7,12-20".
+std::vector<int> parse_list(const std::string& text, int contacts) {
+  std::vector<int> list;
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ',');) {
+    const std::size_t dash = item.find('-');
+    const std::optional<int> first = parse_number(item.substr(0, dash));
+    const std::optional<int> last = dash == std::string::npos ? first : parse_number(item.substr(dash + 1));
+    if (!first || !last || *last < *first) refuse_contacts(text);
+    if (*last >= contacts) {
+      throw UsageError(
+          fmt::format("--contacts: there is no contact {}; the packing has {} (from 0)", *last, contacts));
+    }
+    for (int contact = *first; contact <= *last; ++contact) list.push_back(contact);
+  }
+  if (list.empty() || text.back() == ',') refuse_contacts(text);
+  return list;
+}
+
+ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
+  const std::string& text = arguments.contacts;
+  ContactChoice choice;
+  const std::string prefix = "sample:";
+  if (text.starts_with(prefix)) {
+    const std::optional<int> size = parse_number(text.substr(prefix.size()));
+    if (!size || *size == 0) refuse_contacts(text);
+    choice.kind = ContactChoice::Kind::kSample;
+    choice.sample_size = *size;
+    choice.seed = arguments.seed;
+    return choice;
+  }
+  if (arguments.seed != AnalysisArguments().seed)
+    throw UsageError("--seed draws the contacts of --contacts sample:K, which was not given");
+  if (text == "all") return choice;
+  choice.kind = ContactChoice::Kind::kList;
+  choice.list = parse_list(text, contacts);
+  return choice;
+}
+
+std::optional<Formulation> parse_formulation(const std::string& name) {
+  for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
+    if (name == to_string(formulation)) return formulation;
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Levels levels) {
+  std::string help =
+      "standard: double precision, each value within rigorous bounds; fast: the same ranges in about half "
+      "of the time, but extremal states (and dR, dT) that depend on the solver";
+  std::vector<std::string> names = {"fast", "standard"};
+  if (levels == Levels::kWithExact) {
+    help +=
+        "; exact: each value proven in rational arithmetic and rounded once (about a minute for a hundred "
+        "disks)";
+    names.emplace_back("exact");
+  }
+  command.add_option("--accuracy", arguments.accuracy, help)
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--contacts", arguments.contacts,
+          "The contacts whose ranges are found: all; sample:K, so many drawn at random, with a confidence "
+          "interval for the means of all; or a list like 3,7,12-20")
+      ->type_name("all|sample:K|LIST")
+      ->capture_default_str();
+  command.add_option("--seed", arguments.seed, "Seed of --contacts sample:K")
+      ->check(not_negative())
+      ->capture_default_str();
+  command
+      .add_option("--formulation", arguments.formulation,
+                  "How the linear programs are posed; the results are the same")
+      ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--extremal-states", arguments.states,
+          "Which state stands for an optimum that many states attain: the one of smallest total normal "
+          "force (canonical), or the vertex that the solver lands on (solver); auto: canonical, but solver "
+          "with --accuracy fast")
+      ->check(CLI::IsMember({"auto", "canonical", "solver"}))
+      ->capture_default_str();
+}
+
+bool is_exact(const AnalysisArguments& arguments) { return arguments.accuracy == "exact"; }
+
+Method parse_method(const std::string& name) {
+  for (const Method method : {Method::kPivotingPaper, Method::kPivotingTableau}) {
+    if (name == to_string(method)) return method;
+  }
+  return Method::kLp;
+}
+
+AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const Context& context) {
+  AnalyzeOptions options = options_for(arguments.accuracy == "fast" ? Accuracy::kFast : Accuracy::kStandard);
+  options.contacts = parse_contacts(arguments, contacts);
+  options.formulation = parse_formulation(arguments.formulation);
+  if (arguments.states != "auto") options.canonical_states = arguments.states == "canonical";
+  options.threads = context.thread_count();
+  options.progress = context.progress();
+  return options;
+}
+
+}  // namespace indet::app

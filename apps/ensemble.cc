@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "configuration.h"
+#include "ensemble_output.h"
+#include "indet/base/error.h"
+#include "indet/ensemble/run.h"
+#include "indet/lp/glpk_problem.h"
+#include "indet/sim/scene_toml.h"
+
+namespace indet::app {
+namespace {
+
+struct EnsembleCommand {
+  std::string folder, scene_file, units, preset = "stiff";
+  std::optional<int> disks;
+  std::optional<double> mu;
+  EnsembleConfig config;
+  std::vector<std::string> protocols, files;
+  bool dry_run = false;
+  bool no_solver_states = false;
+};
+
+EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
+  EnsembleConfig config = o.config;
+  if (!o.scene_file.empty()) config.scene = sim::read_scene(o.scene_file);
+  if (o.disks) config.scene.disks = *o.disks;
+  if (o.mu) config.scene.friction = {*o.mu, *o.mu};
+  if (!o.protocols.empty()) config.protocols = o.protocols;
+  for (const std::string& file : o.files) config.files.emplace_back(file);
+  // Files alone are an ensemble of their own.
+  if (!o.files.empty() && o.protocols.empty() && !seeds_given) config.protocols.clear();
+  config.molecular_dynamics = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
+  config.solver_states = !o.no_solver_states;
+  return config;
+}
+
+struct Range {
+  int first = 0;
+  int last = 0;
+};
+
+/// "3-17", or "5" for one unit.
+Range range_of(const std::string& text, int units) {
+  if (text.empty()) return {0, units - 1};
+  Range range;
+  std::size_t end = 0;
+  try {
+    range.first = std::stoi(text, &end);
+    range.last = range.first;
+    if (end < text.size() && text[end] == '-') {
+      const std::string rest = text.substr(end + 1);
+      range.last = std::stoi(rest, &end);
+      if (end != rest.size()) throw std::invalid_argument(text);
+    } else if (end != text.size()) {
+      throw std::invalid_argument(text);
+    }
+  } catch (const std::logic_error&) {
+    throw UsageError(fmt::format("--units {}: expected FIRST-LAST, two numbers of units", text));
+  }
+  if (range.first < 0 || range.first > range.last || range.last >= units)
+    throw UsageError(fmt::format("--units {}: there are units 0-{}", text, units - 1));
+  return range;
+}
+
+int list_units(const Plan& plan, const Range& range, const Context& context) {
+  double total = 0;
+  nlohmann::json json = nlohmann::json::array();
+  if (!context.json) fmt::print("{:>5}  {:<24} {:>12}\n", "unit", "packing", "seconds");
+  for (const Unit& unit : plan.units) {
+    if (unit.number < range.first || unit.number > range.last) continue;
+    total += unit.cost;
+    if (context.json) {
+      json.push_back(
+          {{"unit", unit.number}, {"name", unit.name}, {"seconds", unit.cost}, {"hash", unit.hash}});
+    } else {
+      fmt::print("{:>5}  {:<24} {:>12.1f}\n", unit.number, unit.name, unit.cost);
+    }
+  }
+  if (context.json) {
+    std::cout << nlohmann::json{{"units", json}, {"seconds", total}}.dump(2) << '\n';
+  } else {
+    fmt::print("{}, about {:.0f} s on {}\n", counted(range.last - range.first + 1, "packing"),
+               total / context.thread_count(), counted(context.thread_count(), "core"));
+  }
+  return kDone;
+}
+
+int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const EnsembleConfig config = config_of(o, seeds_given);
+  if (config.sampling.samples > 0) {
+    if (const auto defect = config.sampling.defect()) throw InputError(*defect);
+  }
+  const Plan plan = make_plan(config);
+  const Range range = range_of(o.units, static_cast<int>(plan.units.size()));
+  if (o.dry_run) return list_units(plan, range, context);
+  const std::filesystem::path folder = o.folder;
+  std::filesystem::create_directories(folder);
+  write_plan(folder, plan);
+
+  RunOptions options;
+  options.threads = context.thread_count();
+  options.first = range.first;
+  options.last = range.last;
+  options.progress = context.progress();
+  options.provenance = {context.arguments, context.resolved_config, {{"GLPK", glpk_version()}}, {}};
+  const RunSummary summary = run_units(config, plan, folder, options);
+  for (const UnitFailure& failure : summary.failures)
+    context.warn(fmt::format("{}: {}", failure.unit, failure.reason));
+
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  Outcomes outcomes{.done = summary.done, .skipped = summary.skipped, .failures = summary.failures};
+  if (range.last - range.first + 1 < static_cast<int>(plan.units.size())) {
+    return report_part(folder, range.first, range.last, outcomes, seconds(), context);
+  }
+  return finish_ensemble(folder, plan, {folder}, outcomes, seconds, context);
+}
+
+}  // namespace
+
+Command add_ensemble(CLI::App& root) {
+  const auto o = std::make_shared<EnsembleCommand>();
+  CLI::App* command = root.add_subcommand(
+      "ensemble", "Many packings: simulate, analyze and sample each, and collect the results");
+  command->add_option("files", o->files, "Packings that are there already (.h5)")->check(CLI::ExistingFile);
+  command->add_option("-o,--out", o->folder, "Folder to write; the same command goes on where it stopped")
+      ->required();
+  CLI::Option* seeds = command->add_option("--seeds", o->config.seeds, "Number of seeds")
+                           ->check(CLI::PositiveNumber)
+                           ->capture_default_str();
+  command->add_option("--first-seed", o->config.first_seed, "The first of them")
+      ->check(not_negative())
+      ->capture_default_str();
+  command->add_option("--protocols", o->protocols, "Which of cd1,cd2,md1,md2 (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"cd1", "cd2", "md1", "md2"}));
+  command->add_option("--scene", o->scene_file, "TOML file of the scene")->check(CLI::ExistingFile);
+  command->add_option("--disks", o->disks, "Number of disks (default: 95, or that of the scene)");
+  command->add_option("--mu", o->mu, "Friction coefficient (default: 0.3, or that of the scene)");
+  command->add_option("--preset", o->preset, "md: stiff or paper damping")
+      ->check(CLI::IsMember({"stiff", "paper"}))
+      ->capture_default_str();
+  command->add_option("--samples", o->config.sampling.samples, "Solutions of perturb-and-resolve (0: none)")
+      ->check(not_negative())
+      ->capture_default_str();
+  command
+      ->add_option("--sample-distance", o->config.sampling.distance,
+                   "Solve until balanced forces are as close as this (mg)")
+      ->check(not_negative())
+      ->capture_default_str();
+  command->add_flag("--no-solver-states", o->no_solver_states,
+                    "Leave out dR and dT of the vertices that the solver lands on");
+  command->add_option("--units", o->units, "Only units FIRST-LAST, to be joined by indet merge");
+  command->add_flag("--dry-run", o->dry_run, "List the units with their estimated cost");
+  return {command, [o, seeds](const Context& context) { return run(*o, seeds->count() > 0, context); }};
+}
+
+}  // namespace indet::app

@@ -1,0 +1,153 @@
+#include "indet/ensemble/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace indet {
+namespace {
+
+constexpr std::array<const char*, 4> kProtocols = {"cd1", "cd2", "md1", "md2"};
+constexpr std::array<const char*, 4> kNames = {"CD-1", "CD-2", "MD-1", "MD-2"};
+
+std::string text_of(const Estimate& e, const char* unit = " mg") {
+  if (std::isnan(e.value)) return "–";
+  if (std::isnan(e.error)) return fmt::format("{:.1f}{}", e.value, unit);
+  return fmt::format("{:.1f} ± {:.1f}{}", e.value, e.error, unit);
+}
+
+std::string verdict(const Estimate& ours, double paper, double paper_error) {
+  if (std::isnan(ours.value) || std::isnan(ours.error)) return "";
+  const double tolerance = 2 * std::hypot(ours.error, paper_error);
+  return std::abs(ours.value - paper) <= tolerance ? "agrees" : "differs";
+}
+
+/// Over the packings that have a value.
+double sum_known(const FlatTable& table, const char* column) {
+  double result = 0;
+  for (const double value : table.numbers(column)) result += std::isnan(value) ? 0 : value;
+  return result;
+}
+
+double sum(const FlatTable& table, const char* column) {
+  double result = 0;
+  for (const double value : table.numbers(column)) result += value;
+  return result;
+}
+
+void add_dimensions(const EnsembleTables& tables, std::vector<Comparison>& rows) {
+  const FlatTable& runs = tables.runs;
+  int outside = 0;
+  int above = 0;
+  for (std::size_t row = 0; row < runs.rows(); ++row) {
+    const double bound = runs.number("lower_bound", row);
+    const double excess = runs.number("dim", row) - bound;
+    if (excess < 0 || excess > 3) ++outside;
+    if (runs.number("sliding", row) > bound) ++above;
+  }
+  rows.push_back({"dim F between 2M − 3N and 2M − 3N + 3 (Fig. 6a)", "all 240",
+                  fmt::format("{} of {}", runs.rows() - static_cast<std::size_t>(outside), runs.rows()),
+                  outside == 0 ? "agrees" : "differs"});
+  rows.push_back({"sliding contacts Ms ≤ 2M − 3N (Fig. 6b)", "all 240",
+                  fmt::format("{} of {}", runs.rows() - static_cast<std::size_t>(above), runs.rows()),
+                  above == 0 ? "agrees" : "differs"});
+}
+
+}  // namespace
+
+std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
+  std::vector<Comparison> rows;
+  const Samples samples(tables);
+  if (!samples.has({"cd1", "cd2", "md1", "md2"})) return rows;
+  add_dimensions(tables, rows);
+  const std::array<const char*, 4> sliding = {"near 0", "near 0", "between", "most"};
+  for (std::size_t p = 0; p < 4; ++p) {
+    if (!samples.has({kProtocols[p]})) continue;
+    rows.push_back({fmt::format("sliding contacts, {} (Fig. 6b)", kNames[p]), sliding[p],
+                    text_of(mean_of(samples.runs(kProtocols[p], "sliding")), ""), ""});
+  }
+  for (std::size_t p = 0; p < 4; ++p) {
+    if (!samples.has({kProtocols[p]})) continue;
+    const Estimate mean = mean_of(samples.runs(kProtocols[p], "mean_R"));
+    rows.push_back({fmt::format("mean R, {}", kNames[p]), p == 0 ? "9.3 mg" : "", text_of(mean),
+                    p == 0 ? verdict(mean, 9.3, 0) : ""});
+  }
+  const std::array<std::array<double, 2>, 4> radius = {{{33, 1.4}, {34, 1.3}, {41, 1.7}, {40, 1.5}}};
+  for (std::size_t p = 0; p < 4; ++p) {
+    const std::vector<double> values = samples.runs(kProtocols[p], "r");
+    const Estimate r = mean_of(values);
+    if (std::isnan(r.value)) continue;
+    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", kNames[p]),
+                    fmt::format("{:g} ± {:g} mg, s.d. 12 mg", radius[p][0], radius[p][1]),
+                    fmt::format("{}, s.d. {:.1f} mg", text_of(r), standard_deviation(values)),
+                    verdict(r, radius[p][0], radius[p][1])});
+  }
+  struct Distance {
+    const char* name;
+    const char* protocol;
+    const char* column;
+    double value, error;
+  };
+  for (const Distance& d : {Distance{"distance CD-1 – CD-2", "cd2", "distance_cd1", 50, 3},
+                            Distance{"distance CD-1 – MD-2", "md2", "distance_cd1", 75, 4},
+                            Distance{"distance MD-2 – CD-2", "md2", "distance_cd2", 45, 3}}) {
+    const Estimate ours = mean_of(samples.runs(d.protocol, d.column));
+    if (std::isnan(ours.value)) continue;
+    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of(ours),
+                    verdict(ours, d.value, d.error)});
+  }
+  for (const bool md : {false, true}) {
+    const std::vector<std::string> protocols =
+        md ? std::vector<std::string>{"md1", "md2"} : std::vector<std::string>{"cd1", "cd2"};
+    if (!samples.has(protocols)) continue;
+    const double paper = md ? 75 : 60;
+    for (const char* column : {"d_R", "solver_d_R", "d_T", "solver_d_T"}) {
+      const GroupedValues data = samples.of(protocols, column);
+      if (!(largest(data) > 0)) continue;
+      const Estimate ours = main_maximum(data);
+      const bool near = std::abs(ours.value - paper) <= std::max(0.1 * paper, 2 * ours.error);
+      const bool solver = std::string(column).starts_with("solver");
+      rows.push_back({fmt::format("main maximum of d{}, {}, {} (Fig. 8)", column[solver ? 9 : 2],
+                                  md ? "MD" : "CD", solver ? "solver's vertices" : "canonical states"),
+                      fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of(ours),
+                      near ? "agrees" : "differs"});
+    }
+  }
+  return rows;
+}
+
+std::vector<Comparison> beyond_the_paper(const EnsembleTables& tables) {
+  const FlatTable& runs = tables.runs;
+  std::vector<Comparison> rows;
+  if (runs.rows() == 0) return rows;
+  int equal = 0;
+  double primal = 0;
+  double dual = 0;
+  for (std::size_t row = 0; row < runs.rows(); ++row) {
+    if (runs.number("dim", row) == runs.number("nullity", row)) ++equal;
+    primal = std::fmax(primal, runs.number("worst_primal_residual", row));
+    dual = std::fmax(dual, runs.number("worst_dual_residual", row));
+  }
+  const double objectives = sum(runs, "objectives");
+  rows.push_back({"dim F equals the nullity", "", fmt::format("{} of {} packings", equal, runs.rows()), ""});
+  rows.push_back(
+      {"minima and maxima certified", "", fmt::format("{} of {}", sum(runs, "certified"), objectives), ""});
+  rows.push_back(
+      {"imprecise, not found", "", fmt::format("{}, {}", sum(runs, "imprecise"), sum(runs, "failed")), ""});
+  rows.push_back(
+      {"without limit", "",
+       fmt::format("{} ({:.2g} %)", sum(runs, "unbounded"), 100 * sum(runs, "unbounded") / objectives), ""});
+  rows.push_back({"attained by one state only", "",
+                  fmt::format("{} ({:.2g} %)", sum(runs, "unique"), 100 * sum(runs, "unique") / objectives),
+                  ""});
+  if (sum_known(runs, "samples") > 0) {
+    rows.push_back({"perturbed solutions accepted", "",
+                    fmt::format("{} of {}", sum_known(runs, "accepted"), sum_known(runs, "samples")), ""});
+  }
+  rows.push_back({"worst residuals", "", fmt::format("primal {:.1e} mg, dual {:.1e}", primal, dual), ""});
+  return rows;
+}
+
+}  // namespace indet

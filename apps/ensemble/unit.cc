@@ -1,0 +1,134 @@
+#include "indet/ensemble/unit.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "indet/base/error.h"
+#include "indet/ensemble/simulation_values.h"
+#include "indet/range/analyze.h"
+
+namespace indet {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& scene, const sim::World& world,
+                             const std::string& protocol, const ProgressCallback& progress) {
+  sim::SimulationOptions options = method_of(config, protocol);
+  options.time_limit = sim::default_time_limit(world, scene.height);
+  if (const auto reason = options.defect(world)) throw InputError(*reason);
+  sim::Simulation result = sim::simulate(world, {}, options, {.progress = progress});
+  if (!result.polished.balanced)
+    throw LibraryError(protocol + ": the forces do not balance: " + result.polished.reason);
+  return result;
+}
+
+void simulate_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& first,
+                   const ProgressCallback& progress, UnitResult& result) {
+  const Stopwatch watch;
+  const sim::Scene scene = scene_of(config, unit);
+  sim::World world = sim::build(scene);
+  if (unit.protocol.back() == '2') {
+    const Packing start = first ? *first : run_protocol(config, scene, world, "cd1", progress).packing;
+    world = sim::world_of(start, scene.friction);
+    world.bring_to_rest();
+  }
+  const sim::Simulation simulation = run_protocol(config, scene, world, unit.protocol, progress);
+  result.packing = simulation.packing;
+  result.packing.origin = {.protocol = unit.protocol, .seed = unit.seed, .config = unit.config};
+  result.simulation = record_of(simulation, method_of(config, unit.protocol));
+  result.seconds["simulate"] = watch.seconds();
+}
+
+void analyze_unit(const EnsembleConfig& config, const ProgressCallback& progress, UnitResult& result) {
+  AnalyzeOptions options;
+  options.progress = progress;
+  {
+    const Stopwatch watch;
+    result.ranges = analyze(result.packing, options);
+    result.seconds["analyze"] = watch.seconds();
+  }
+  result.extremal = count_extremal_forces(result.ranges);
+  if (!config.solver_states) return;
+  const Stopwatch watch;
+  options.canonical_states = false;
+  const ForceRanges landed = analyze(result.packing, options);
+  result.solver_d_R = landed.d_R;
+  result.solver_d_T = landed.d_T;
+  result.solver_extremal = count_extremal_forces(landed);
+  result.seconds["analyze_solver_states"] = watch.seconds();
+}
+
+void sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
+                 UnitResult& result) {
+  if (config.sampling.samples <= 0 || !result.packing.has_simulated_forces()) return;
+  if (result.packing.contacts.empty()) return;
+  const Stopwatch watch;
+  sim::PerturbOptions options = config.sampling;
+  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
+  result.sampling = record_of(sim::perturb_and_resolve(result.packing, options, progress), options);
+  result.seconds["sample"] = watch.seconds();
+}
+
+}  // namespace
+
+ExtremalForces count_extremal_forces(const ForceRanges& ranges) {
+  ExtremalForces result;
+  const Eigen::Index contacts = ranges.vertex.rows();
+  for (std::size_t column = 0; column < 4; ++column) {
+    std::vector<std::int32_t>& counts = result.counts[column];
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      const int row = ranges.vertex(i, static_cast<Eigen::Index>(column));
+      if (row < 0) continue;
+      for (Eigen::Index c = 0; c < contacts; ++c) {
+        const double force = std::max(0.0, ranges.states(row, 2 * c) / ranges.force_unit);
+        const auto bin = static_cast<std::size_t>(force);
+        if (bin >= counts.size()) counts.resize(bin + 1, 0);
+        ++counts[bin];
+      }
+    }
+  }
+  return result;
+}
+
+UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& given,
+                        const std::optional<Packing>& first, const ProgressCallback& progress) {
+  UnitResult result;
+  if (given) {
+    result.packing = *given;
+  } else {
+    simulate_unit(config, unit, first, progress, result);
+  }
+  analyze_unit(config, progress, result);
+  sample_unit(config, unit, progress, result);
+  return result;
+}
+
+SamplingRecord record_of(const sim::PerturbEnsemble& ensemble, const sim::PerturbOptions& options) {
+  SamplingRecord record;
+  record.method = "perturb";
+  record.center = ensemble.center;
+  record.numbers = {{"r", ensemble.r},
+                    {"r_error", ensemble.r_error},
+                    {"spread", ensemble.spread},
+                    {"start_distance", ensemble.start_distance},
+                    {"samples", static_cast<double>(ensemble.samples.size())},
+                    {"accepted", ensemble.accepted},
+                    {"converged", ensemble.converged},
+                    {"worst_raw_residual", ensemble.worst_raw_residual},
+                    {"worst_residual", ensemble.worst_residual},
+                    {"chains", options.chains},
+                    {"width", options.width},
+                    {"seed", static_cast<double>(options.seed)}};
+  return record;
+}
+
+}  // namespace indet

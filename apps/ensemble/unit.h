@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "indet/base/progress.h"
+#include "indet/ensemble/plan.h"
+#include "indet/io/sampling_file.h"
+#include "indet/io/simulation_file.h"
+#include "indet/range/force_ranges.h"
+
+namespace indet {
+
+/// How often the normal force of a contact lies in [k, k + 1) mg in the extremal states, one row for each
+/// objective (R_min, R_max, T_min, T_max): each of the M objectives of a kind contributes the M forces of its
+/// state.
+struct ExtremalForces {
+  std::array<std::vector<std::int32_t>, 4> counts;
+};
+
+ExtremalForces count_extremal_forces(const ForceRanges& ranges);
+
+/// Everything that was found about one packing.
+struct UnitResult {
+  Packing packing;
+  std::optional<SimulationRecord> simulation;
+  ForceRanges ranges;
+  Eigen::VectorXd solver_d_R, solver_d_T;  ///< [24] with the vertices that the solver lands on; or empty.
+  ExtremalForces extremal;                 ///< Of the canonical states.
+  ExtremalForces solver_extremal;          ///< Of the vertices that the solver lands on; or empty.
+  std::optional<SamplingRecord> sampling;
+  std::map<std::string, double> seconds;
+};
+
+/// Simulates (or takes `given`, the packing of a file), analyses and samples one packing, on the calling
+/// thread. `first`: the cd1 packing that cd2 and md2 start from; where it is missing it is simulated. The
+/// result is the same either way. Throws InputError or LibraryError if there is no packing with balanced
+/// forces; Interrupted.
+UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& given,
+                        const std::optional<Packing>& first, const ProgressCallback& progress);
+
+/// The record of perturb-and-resolve, as in the files of indet sample.
+SamplingRecord record_of(const sim::PerturbEnsemble& ensemble, const sim::PerturbOptions& options);
+
+}  // namespace indet

@@ -1,0 +1,95 @@
+#include "ensemble_output.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "indet/ensemble/ensemble_file.h"
+#include "indet/ensemble/figures.h"
+
+namespace indet::app {
+namespace {
+
+nlohmann::json failures_json(const std::vector<UnitFailure>& failures) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const UnitFailure& failure : failures)
+    json.push_back({{"unit", failure.unit}, {"reason", failure.reason}});
+  return json;
+}
+
+double sum(const FlatTable& table, const char* column) {
+  double result = 0;
+  for (const double value : table.numbers(column)) result += value;
+  return result;
+}
+
+}  // namespace
+
+int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
+                double seconds, const Context& context) {
+  if (context.json) {
+    std::cout << nlohmann::json{{"folder", folder.string()},
+                                {"first", first},
+                                {"last", last},
+                                {"done", outcomes.done},
+                                {"skipped", outcomes.skipped},
+                                {"failures", failures_json(outcomes.failures)},
+                                {"seconds", seconds}}
+                     .dump(2)
+              << '\n';
+  } else {
+    fmt::print("units {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last,
+               outcomes.done, outcomes.skipped, outcomes.failures.size(), seconds);
+    fmt::print("join the parts with indet merge\n");
+  }
+  return outcomes.failures.empty() ? kDone : kUncertain;
+}
+
+int finish_ensemble(const std::filesystem::path& folder, const Plan& plan,
+                    const std::vector<std::filesystem::path>& folders, const Outcomes& outcomes,
+                    const std::function<double()>& seconds, const Context& context) {
+  Collection collection = collect_units(plan, folders, context.progress());
+  EnsembleContents contents{.config = plan.config,
+                            .hash = plan.hash(),
+                            .tables = std::move(collection.tables),
+                            .missing = std::move(collection.missing),
+                            .failures = outcomes.failures};
+  Provenance provenance{context.arguments, context.resolved_config, {}, {}};
+  provenance.seconds["ensemble"] = seconds();
+  const std::filesystem::path path = folder / "ensemble.h5";
+  write_ensemble(path, contents, make_figures(contents.tables), provenance);
+
+  const FlatTable& runs = contents.tables.runs;
+  const double uncertain = sum(runs, "imprecise") + sum(runs, "failed");
+  if (context.json) {
+    std::cout << nlohmann::json{{"output", path.string()},
+                                {"packings", runs.rows()},
+                                {"contacts", contents.tables.contacts.rows()},
+                                {"objectives", sum(runs, "objectives")},
+                                {"certified", sum(runs, "certified")},
+                                {"unbounded", sum(runs, "unbounded")},
+                                {"imprecise", sum(runs, "imprecise")},
+                                {"not_found", sum(runs, "failed")},
+                                {"done", outcomes.done},
+                                {"skipped", outcomes.skipped},
+                                {"missing", contents.missing},
+                                {"failures", failures_json(outcomes.failures)},
+                                {"seconds", seconds()}}
+                     .dump(2)
+              << '\n';
+  } else {
+    fmt::print("{}: {} computed, {} there already, {} failed\n",
+               counted(static_cast<std::int64_t>(plan.units.size()), "packing"), outcomes.done,
+               outcomes.skipped, outcomes.failures.size());
+    fmt::print("{} contacts, {} objectives: {} certified, {} unbounded, {} imprecise, {} not found\n",
+               contents.tables.contacts.rows(), sum(runs, "objectives"), sum(runs, "certified"),
+               sum(runs, "unbounded"), sum(runs, "imprecise"), sum(runs, "failed"));
+    for (const std::string& name : contents.missing) fmt::print("missing: {}\n", name);
+    fmt::print("written to {} ({:.1f} s)\n", path.string(), seconds());
+  }
+  return contents.missing.empty() && uncertain == 0 ? kDone : kUncertain;
+}
+
+}  // namespace indet::app

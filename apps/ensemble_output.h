@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "command.h"
+#include "indet/ensemble/plan.h"
+#include "indet/ensemble/run.h"
+
+namespace indet::app {
+
+/// What became of the units of this run.
+struct Outcomes {
+  int done = 0;
+  int skipped = 0;
+  std::vector<UnitFailure> failures;
+};
+
+/// Says what a run of some units did; returns the exit status.
+int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
+                double seconds, const Context& context);
+
+/// Reads the units of `folders`, writes FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5
+/// if units are missing or something is imprecise.
+int finish_ensemble(const std::filesystem::path& folder, const Plan& plan,
+                    const std::vector<std::filesystem::path>& folders, const Outcomes& outcomes,
+                    const std::function<double()>& seconds, const Context& context);
+
+}  // namespace indet::app

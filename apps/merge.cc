@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "ensemble_output.h"
+#include "indet/base/error.h"
+#include "indet/ensemble/table.h"
+#include "indet/ensemble/unit_file.h"
+
+namespace indet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MergeCommand {
+  std::vector<std::string> parts;
+  std::string folder;
+  bool allow_missing = false;
+};
+
+/// A second name for the same bytes where the file system can, else a copy that appears whole.
+void bring(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return;
+  const fs::path temporary = fs::path(to).concat(".tmp");
+  fs::copy_file(from, temporary, fs::copy_options::overwrite_existing);
+  fs::rename(temporary, to);
+}
+
+int run(const MergeCommand& o, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<fs::path> parts(o.parts.begin(), o.parts.end());
+  const Plan plan = read_plan(parts.front());
+  for (const fs::path& part : parts) {
+    if (read_plan(part).hash() != plan.hash()) {
+      throw InputError(
+          fmt::format("{} and {} are parts of different ensembles", parts.front().string(), part.string()));
+    }
+  }
+  const fs::path folder = o.folder;
+  // What an earlier merge brought there is the same file under two names.
+  std::vector<fs::path> folders = parts;
+  if (fs::exists(folder / "ensemble.toml")) {
+    if (read_plan(folder).hash() != plan.hash())
+      throw InputError(fmt::format("{} holds another ensemble", folder.string()));
+    const bool listed = std::any_of(parts.begin(), parts.end(),
+                                    [&](const fs::path& part) { return fs::equivalent(part, folder); });
+    if (!listed) folders.push_back(folder);
+  }
+  const std::vector<std::string> missing = collect_units(plan, folders, context.progress()).missing;
+  if (!missing.empty() && !o.allow_missing) {
+    std::string list;
+    for (const std::string& name : missing) list += "\n  " + name;
+    throw InputError(fmt::format("{} of {} units are missing (--allow-missing joins the others):{}",
+                                 missing.size(), plan.units.size(), list));
+  }
+  fs::create_directories(folder / "units");
+  write_plan(folder, plan);
+  Outcomes outcomes;
+  for (const Unit& unit : plan.units) {
+    for (const fs::path& part : folders) {
+      const fs::path from = unit_path(part, unit);
+      if (!unit_is_done(from, unit)) continue;
+      ++outcomes.skipped;
+      if (!fs::exists(unit_path(folder, unit))) bring(from, unit_path(folder, unit));
+      break;
+    }
+  }
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  return finish_ensemble(folder, plan, {folder}, outcomes, seconds, context);
+}
+
+}  // namespace
+
+Command add_merge(CLI::App& root) {
+  const auto o = std::make_shared<MergeCommand>();
+  CLI::App* command =
+      root.add_subcommand("merge", "Join the parts of an ensemble that indet ensemble --units made");
+  command->add_option("parts", o->parts, "Folders of the parts")->required()->check(CLI::ExistingDirectory);
+  command->add_option("-o,--out", o->folder, "Folder to write")->required();
+  command->add_flag("--allow-missing", o->allow_missing, "Join what is there even if units are missing");
+  return {command, [o](const Context& context) { return run(*o, context); }};
+}
+
+}  // namespace indet::app

@@ -1,0 +1,44 @@
+#include "paper_work.h"
+
+#include <fmt/format.h>
+
+#include "command.h"
+
+namespace indet::app {
+
+nlohmann::json describe_paper_work(const PaperWork& work) {
+  nlohmann::json json = {{"walks", work.walk_count()},         {"failures", work.failures()},
+                         {"extremal_points", work.points},     {"unexpected_points", work.unexpected},
+                         {"neighbours", work.neighbours},      {"sliding_left", work.sliding_left},
+                         {"starts", nlohmann::json::object()}, {"ends", nlohmann::json::object()}};
+  for (int end = 0; end < kInteriorEnds; ++end)
+    json["starts"][to_string(static_cast<InteriorEnd>(end))] = work.starts[static_cast<std::size_t>(end)];
+  for (int end = 0; end < kWalkEnds; ++end)
+    json["ends"][to_string(static_cast<WalkEnd>(end))] = work.walks[static_cast<std::size_t>(end)];
+  return json;
+}
+
+void print_paper_work(const PaperWork& work) {
+  fmt::print("the paper's pivoting: {} over {}, {} with an unexpected number of active constraints\n",
+             counted(work.walk_count(), "walk"), counted(work.points, "extremal point"), work.unexpected);
+  for (int end = 0; end < kInteriorEnds; ++end) {
+    const std::int64_t blocks = work.starts[static_cast<std::size_t>(end)];
+    if (blocks == 0) continue;
+    const auto kind = static_cast<InteriorEnd>(end);
+    if (kind == InteriorEnd::kFound) {
+      fmt::print("  interior point from the simulated state, {} left\n",
+                 counted(work.sliding_left, "sliding contact"));
+    } else {
+      fmt::print("  interior point from a linear program ({}): {}\n", counted(blocks, "block"),
+                 to_string(kind));
+    }
+  }
+  fmt::print("  {} reported as failed\n", counted(work.failures(), "walk"));
+  for (int end = 0; end < kWalkEnds; ++end) {
+    const std::int64_t walks = work.walks[static_cast<std::size_t>(end)];
+    if (walks == 0 || static_cast<WalkEnd>(end) == WalkEnd::kNoneBetter) continue;
+    fmt::print("    {:>6}  {}\n", walks, to_string(static_cast<WalkEnd>(end)));
+  }
+}
+
+}  // namespace indet::app

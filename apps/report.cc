@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "indet/base/error.h"
+#include "indet/ensemble/html_report.h"
+#include "indet/io/ranges_file.h"
+#include "indet/report/packing_picture.h"
+
+namespace indet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Fig. 5: CD-1, MD-2 and the extremal state of largest norm, for the first seed that has both files.
+std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& tables) {
+  std::vector<Picture> pictures;
+  for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
+    if (tables.runs.text("protocol", row) != "cd1") continue;
+    const std::string name = tables.runs.text("unit", row);
+    const fs::path first = folder / "units" / (name + ".h5");
+    const fs::path second = folder / "units" / ("md2" + name.substr(3) + ".h5");
+    if (!fs::exists(first) || !fs::exists(second)) continue;
+    const Packing cd1 = read_packing(first);
+    const Packing md2 = read_packing(second);
+    const ForceRanges ranges = read_ranges(first);
+    if (ranges.largest_norm < 0) continue;
+    const fs::path figures = folder / "figures";
+    draw_forces(figures / "fig05a.svg", cd1, cd1.simulated_forces(), name);
+    draw_forces(figures / "fig05b.svg", md2, md2.simulated_forces(), second.stem().string());
+    draw_forces(figures / "fig05c.svg", cd1, ranges.states.row(ranges.largest_norm).transpose(),
+                "extremal state");
+    const double mg = cd1.force_unit();
+    pictures.push_back({"fig05a", fmt::format("CD-1: {} contacts, norm {:.0f} mg", cd1.contact_count(),
+                                              cd1.simulated_forces().norm() / mg)});
+    pictures.push_back({"fig05b", fmt::format("MD-2 from it: {} contacts, norm {:.0f} mg",
+                                              md2.contact_count(), md2.simulated_forces().norm() / mg)});
+    pictures.push_back(
+        {"fig05c", fmt::format("The extremal state of the CD-1 packing of largest norm, {:.0f} mg",
+                               ranges.norm[ranges.largest_norm] / mg)});
+    break;
+  }
+  return pictures;
+}
+
+int run(const std::string& path, const Context& context) {
+  const fs::path folder = path;
+  if (!fs::exists(folder / "ensemble.h5")) {
+    throw InputError(
+        fmt::format("{}: has no ensemble.h5; make one with indet ensemble or indet merge", path));
+  }
+  const EnsembleContents contents = read_ensemble(folder / "ensemble.h5");
+  std::vector<std::pair<std::string, std::string>> about;
+  {
+    const Hdf5File file = open_indet_file(folder / "ensemble.h5");
+    for (const char* name : {"version", "git", "compiler", "host", "created"})
+      about.emplace_back(name, file.string_attribute("/provenance", name));
+    about.emplace_back("SHA-256 of the numbers", file.string_attribute("/", "content_sha256"));
+  }
+  fs::create_directories(folder / "figures");
+  const std::vector<Picture> pictures = draw_states(folder, contents.tables);
+  write_report(folder, contents, pictures, about, context.progress());
+  const std::string report = (folder / "report.html").string();
+  if (context.json) {
+    std::cout << nlohmann::json{{"report", report}, {"packings", contents.tables.runs.rows()}}.dump(2)
+              << '\n';
+  } else {
+    fmt::print("written to {}\n", report);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& root) {
+  const auto path = std::make_shared<std::string>();
+  CLI::App* command = root.add_subcommand("report", "Draw the figures and tables of an ensemble");
+  command->add_option("folder", *path, "Folder of an ensemble")->required()->check(CLI::ExistingDirectory);
+  return {command, [path](const Context& context) { return run(*path, context); }};
+}
+
+}  // namespace indet::app

@@ -1,0 +1,296 @@
+#include "sample_uniform.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "indet/base/error.h"
+#include "indet/base/tolerances.h"
+#include "indet/io/ranges_file.h"
+#include "indet/io/sampling_file.h"
+#include "indet/range/analyze.h"
+#include "indet/sampling/placement.h"
+#include "indet/sampling/shape.h"
+#include "indet/sampling/volume.h"
+
+namespace indet::app {
+namespace {
+
+std::string name_of(const Packing& packing, ContactId id) {
+  const Contact& contact = packing[id];
+  const std::string other = contact.b.is_wall() ? "wall " + packing[contact.b.wall_id()].name
+                                                : std::to_string(packing[contact.b.disk_id()].id);
+  return fmt::format("{}–{}", packing[contact.a].id, other);
+}
+
+/// The contacts whose forces grow along the ray, strongest first; largest entry 1.
+std::string describe_ray(const Packing& packing, const ForcePolytope& polytope) {
+  Eigen::VectorXd forces = contact_state(polytope, polytope.ray);
+  forces /= forces.lpNorm<Eigen::Infinity>();
+  for (double& force : forces) force = std::abs(force) < tolerance::kRay ? 0 : force;  // rounding around 0
+  std::vector<int> growing;
+  for (int k = 0; k < packing.contact_count(); ++k)
+    if (forces[2 * k] > tolerance::kRay) growing.push_back(k);
+  std::stable_sort(growing.begin(), growing.end(),
+                   [&](int a, int b) { return forces[2 * a] > forces[2 * b]; });
+  constexpr std::size_t kShown = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, growing.size()); ++i) {
+    const int k = growing[i];
+    text += fmt::format("{}contact {} ({}) by R {:+.3g}, T {:+.3g}", i > 0 ? "; " : "", k,
+                        name_of(packing, ContactId(k)), forces[2 * k], forces[2 * k + 1]);
+  }
+  if (growing.size() > kShown) text += fmt::format("; and {} more contacts", growing.size() - kShown);
+  return text;
+}
+
+/// Everything that was found, before it is printed or written.
+struct Findings {
+  ForcePolytope polytope;
+  std::optional<ConvexBody> body;  ///< none: F is a point
+  UniformSample sample;
+  std::optional<Placement> placement;
+  std::optional<PolytopeShape> shape;
+  std::optional<VolumeEstimate> volume;
+  double worst_residual = 0;  ///< ‖cF + w‖∞ over the states that are written, and the centre (mg)
+};
+
+std::map<std::string, double> numbers_of(const Findings& f, const UniformSettings& settings) {
+  const UniformSample& s = f.sample;
+  std::map<std::string, double> numbers = {{"dim", f.polytope.dim},
+                                           {"blocks", static_cast<double>(f.polytope.blocks.size())},
+                                           {"seed", static_cast<double>(settings.sampling.seed)},
+                                           {"r", s.r},
+                                           {"r_error", s.r_error},
+                                           {"spread", s.spread},
+                                           {"mean_norm", s.mean_norm},
+                                           {"norm_deviation", s.norm_deviation},
+                                           {"converged", s.converged ? 1 : 0},
+                                           {"worst_residual", f.worst_residual}};
+  if (f.body) {
+    numbers.insert({{"requested", settings.sampling.effective},
+                    {"chains", s.chains},
+                    {"samples", s.count()},
+                    {"interval", static_cast<double>(s.interval)},
+                    {"sweeps", static_cast<double>(s.sweeps)},
+                    {"steps", static_cast<double>(s.steps)},
+                    {"warm_up_phases", s.rounding.phases},
+                    {"rhat", s.rhat},
+                    {"ess", std::min(s.bulk, s.tail)},
+                    {"bulk_ess", s.bulk},
+                    {"tail_ess", s.tail},
+                    {"slowest", s.slowest},
+                    {"worst_slack", s.worst_slack},
+                    {"inscribed_radius", s.ball.radius}});
+  }
+  if (f.placement) {
+    const Placement& p = *f.placement;
+    numbers.insert({{"start_distance", p.distance},
+                    {"start_distance_percentile", p.distance_percentile},
+                    {"start_norm_percentile", p.norm_percentile},
+                    {"start_normal_force_percentile", p.normal_force_percentile},
+                    {"start_mobilisation_percentile", p.mobilisation_percentile},
+                    {"start_central_fraction_R", p.central_fraction_R},
+                    {"start_sliding", p.sliding},
+                    {"most_sliding", p.most_sliding}});
+    if (f.shape) {
+      numbers.insert(
+          {{"start_mean_R_star", p.mean_R_star}, {"start_R_star_percentile", p.R_star_percentile}});
+    }
+  }
+  if (f.shape) {
+    numbers.insert({{"diameter_lower", f.shape->diameter_lower},
+                    {"diameter_upper", f.shape->diameter_upper},
+                    {"diameter_by_ranges", f.shape->diameter_by_ranges},
+                    {"mean_width", f.shape->mean_width},
+                    {"mean_width_error", f.shape->mean_width_error},
+                    {"log_volume", f.volume->log_volume},
+                    {"log_volume_error", f.volume->error},
+                    {"volume_phases", f.volume->phases}});
+  }
+  return numbers;
+}
+
+/// Every sample that is a `count`-th of all.
+Eigen::MatrixXd some_states(const Findings& f, int count) {
+  Eigen::MatrixXd states(f.body->frame.rows(), count);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Index from = static_cast<Eigen::Index>(i) * f.sample.count() / count;
+    states.col(i) = f.body->origin + f.body->frame * f.sample.z.col(from);
+  }
+  return states;
+}
+
+ComponentRecord components_of(const Findings& f, int states, double unit) {
+  const Eigen::Index count = f.body->frame.rows();
+  ComponentRecord record;
+  record.deviation = unit * f.sample.deviation;
+  record.quantile_levels.resize(5);
+  record.quantile_levels << 0.05, 0.25, 0.5, 0.75, 0.95;
+  record.quantiles.resize(count, 5);
+  record.rhat.resize(count);
+  record.bulk.resize(count);
+  record.tail.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Convergence& c = f.sample.components[static_cast<std::size_t>(k)];
+    record.rhat[k] = c.rhat;
+    record.bulk[k] = c.bulk;
+    record.tail[k] = c.tail;
+    Eigen::VectorXd values = component_of(*f.body, f.sample, static_cast<int>(k));
+    std::sort(values.begin(), values.end());
+    for (int q = 0; q < 5; ++q) {
+      record.quantiles(k, q) =
+          unit * sorted_quantile({values.data(), static_cast<std::size_t>(values.size())},
+                                 record.quantile_levels[q]);
+    }
+  }
+  record.states = unit * some_states(f, states);
+  return record;
+}
+
+void print(const Packing& packing, const Findings& f, const UniformSettings& settings) {
+  const UniformSample& s = f.sample;
+  if (!f.body) {
+    fmt::print("The polytope is a point: one contact state, ‖F‖ = {:.4g} mg\n", s.mean_norm);
+    return;
+  }
+  fmt::print("polytope of contact states: dimension {}, {} independent block{}\n", f.polytope.dim,
+             f.polytope.blocks.size(), f.polytope.blocks.size() == 1 ? "" : "s");
+  fmt::print(
+      "uniform: r = {:.4g} ± {:.2g} mg, spread {:.4g} mg; ‖F‖ = {:.4g} mg, standard deviation {:.2g} mg\n",
+      s.r, s.r_error, s.spread, s.mean_norm, s.norm_deviation);
+  const std::string slowest =
+      s.slowest == 2 * packing.contact_count()
+          ? "‖F‖"
+          : fmt::format("{} of contact {}", s.slowest % 2 == 0 ? "R" : "T", s.slowest / 2);
+  fmt::print(
+      "{} after {} sweeps of {} chains: R-hat up to {:.4f}; effective samples at least {:.0f} (bulk), {:.0f} "
+      "(tail), fewest of {}\n",
+      s.converged ? "converged" : fmt::format("NOT converged (limit {})", settings.sampling.limit), s.sweeps,
+      s.chains, s.rhat, s.bulk, s.tail, slowest);
+  if (f.placement) {
+    fmt::print(
+        "simulated state: {:.4g} mg from the centre (percentile {:.1f}), norm at percentile {:.1f}, sum of R "
+        "at {:.1f}\n",
+        f.placement->distance, f.placement->distance_percentile, f.placement->norm_percentile,
+        f.placement->normal_force_percentile);
+  }
+  if (f.shape) {
+    fmt::print(
+        "inscribed ball: radius {:.4g} mg; diameter between {:.4g} and {:.4g} mg; mean width {:.4g} ± {:.2g} "
+        "mg\n",
+        f.shape->inscribed_radius, f.shape->diameter_lower, f.shape->diameter_upper, f.shape->mean_width,
+        f.shape->mean_width_error);
+    fmt::print("log volume: {:.4g} ± {:.2g} (dimension {}, mg)\n", f.volume->log_volume, f.volume->error,
+               f.polytope.dim);
+  }
+}
+
+void find_shape(const std::string& file, const Packing& packing, const UniformSettings& settings,
+                const Context& context, Findings& f, std::optional<ForceRanges>& ranges) {
+  if (file_has_ranges(file)) {
+    ranges = read_ranges(file);
+  } else {
+    AnalyzeOptions options;
+    options.threads = context.thread_count();
+    options.progress = context.progress();
+    ranges = analyze(packing, options);
+  }
+  ShapeOptions shape;
+  shape.seed = settings.sampling.seed;
+  shape.progress = context.progress();
+  f.shape = measure_shape(*f.body, f.sample, &*ranges, shape);
+  VolumeOptions volume;
+  volume.sweeps = settings.volume_sweeps;
+  volume.seed = settings.sampling.seed;
+  volume.threads = context.thread_count();
+  volume.progress = context.progress();
+  f.volume = estimate_volume(*f.body, f.sample, volume);
+}
+
+/// The one state of a polytope that is a point.
+UniformSample sample_of_point(const Packing& packing, const ForcePolytope& polytope) {
+  UniformSample sample;
+  sample.converged = true;
+  sample.center = contact_state(polytope, polytope.lightest);
+  sample.deviation = Eigen::VectorXd::Zero(2 * packing.contact_count());
+  sample.r = sample.r_error = sample.spread = sample.norm_deviation = 0;
+  sample.mean_norm = sample.center.norm();
+  return sample;
+}
+
+void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findings& f) {
+  const double unit = packing.force_unit();
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    if (packing.disk_count() == 0) continue;
+    f.worst_residual =
+        std::max(f.worst_residual, equilibrium_residual(packing, unit * states.col(i)).cwiseAbs().maxCoeff());
+  }
+}
+
+}  // namespace
+
+int sample_uniformly(const std::string& file, const std::string& output, const Packing& packing,
+                     UniformSettings settings, const Context& context) {
+  const double unit = packing.force_unit();
+  settings.sampling.threads = context.thread_count();
+  settings.sampling.progress = context.progress();
+  if (const auto reason = settings.sampling.defect()) throw UsageError(*reason);
+  Findings f;
+  f.polytope = find_force_polytope(packing);
+  if (f.polytope.status == PolytopeStatus::kEmpty) {
+    if (context.json) {
+      const nlohmann::json json = {{"file", file}, {"method", "uniform"}, {"stopped_by", "empty"}};
+      std::cout << json.dump(2) << '\n';
+    }
+    context.warn(
+        fmt::format("{}: no contact forces balance the load; indet analyze shows which disks move", file));
+    return f.polytope.doubtful ? kUncertain : kNoAdmissibleState;
+  }
+  if (f.polytope.status == PolytopeStatus::kUnbounded) {
+    throw InputError(
+        fmt::format("{}: the contact forces can grow without limit, so that no distribution over them is "
+                    "uniform; along a ray grow {}",
+                    file, describe_ray(packing, f.polytope)));
+  }
+  std::optional<ForceRanges> ranges;
+  if (f.polytope.status == PolytopeStatus::kPoint) {
+    f.sample = sample_of_point(packing, f.polytope);
+  } else {
+    f.body = make_body(f.polytope);
+    f.sample = indet::sample_uniformly(*f.body, settings.sampling);
+    if (settings.shape) find_shape(file, packing, settings, context, f, ranges);
+    if (packing.has_simulated_forces()) {
+      f.placement =
+          place_state(packing, *f.body, f.sample, packing.simulated_forces(), ranges ? &*ranges : nullptr);
+    }
+  }
+  const int states = f.body ? std::min(settings.states, f.sample.count()) : 0;
+  if (f.body) check_balance(packing, some_states(f, std::max(states, 1)), f);
+  check_balance(packing, f.sample.center, f);
+
+  SamplingRecord record{"uniform", unit * f.sample.center, numbers_of(f, settings), {}};
+  if (f.body) record.components = components_of(f, states, unit);
+  if (!output.empty()) {
+    Provenance provenance{context.arguments, context.resolved_config, {}, {}};
+    provenance.seconds["sample"] = f.sample.seconds;
+    write_sampling(output, packing, record, provenance);
+  }
+  if (context.json) {
+    nlohmann::json json = {{"file", file}, {"method", "uniform"}, {"seconds", f.sample.seconds}};
+    json["core_seconds"] = f.sample.core_seconds;
+    json["stopped_by"] = !f.body ? "point" : f.sample.converged ? "convergence" : "limit";
+    for (const auto& [name, value] : record.numbers) json[name] = value;
+    std::cout << json.dump(2) << '\n';
+  } else {
+    print(packing, f, settings);
+    if (!output.empty()) fmt::print("written to {} ({:.2f} s)\n", output, f.sample.seconds);
+  }
+  return f.sample.converged && !f.polytope.doubtful ? kDone : kUncertain;
+}
+
+}  // namespace indet::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "command.h"
+#include "indet/packing/packing.h"
+#include "indet/sampling/uniform_sampling.h"
+
+namespace indet::app {
+
+struct UniformSettings {
+  UniformOptions sampling;
+  int states = 0;            ///< how many of the samples are written
+  bool shape = false;        ///< size and shape of the polytope too
+  int volume_sweeps = 1000;  ///< sweeps of each chain and phase for the volume
+};
+
+/// indet sample --method uniform. `file` is named in messages and searched for force ranges; `output` may be
+/// empty.
+int sample_uniformly(const std::string& file, const std::string& output, const Packing& packing,
+                     UniformSettings settings, const Context& context);
+
+}  // namespace indet::app

@@ -1,0 +1,102 @@
+// What the parts of a range search cost on this machine, for profile.py.
+//   bench_profile P.h5                          prints one JSON document
+//
+// A solve that starts from its optimum makes no pivot: what it takes is GLPK's set-up and its factorisation
+// of the start basis. The rate is that of dense arithmetic in cache, a product of matrices, and the rank-one
+// change of a tableau.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "indet/io/packing_file.h"
+#include "indet/lp/lp_solver.h"
+#include "indet/pivoting/tableau_solver.h"
+#include "indet/range/analyze.h"
+#include "indet/range/extremal_search.h"
+#include "rivals.h"
+
+namespace indet::bench {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Seconds a call, over at least a fifth of a second.
+template <class Work>
+double seconds_of(Work work) {
+  const double begin = now();
+  std::int64_t calls = 0;
+  for (; now() - begin < 0.2; ++calls) work();
+  return (now() - begin) / static_cast<double>(calls);
+}
+
+double product_rate() {
+  constexpr int kSize = 192;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Constant(kSize, kSize, 0.5);
+  Eigen::MatrixXd b = a;
+  const double seconds = seconds_of([&] { b.noalias() = a * a; });
+  return 2.0 * kSize * kSize * kSize / seconds;
+}
+
+/// Seconds a pivot of the tableau, over solves of all objectives from one vertex.
+double tableau_pivot_seconds(const FeasibleSet& set, const std::vector<Objective>& objectives,
+                             const Basis& start) {
+  TableauSolver solver(set);
+  std::int64_t pivots = 0;
+  const double begin = now();
+  for (const Objective& objective : objectives) pivots += solver.maximise(objective, start).pivots;
+  return (now() - begin) / static_cast<double>(std::max<std::int64_t>(1, pivots));
+}
+
+nlohmann::json measure(const std::string& file) {
+  const double read_seconds = seconds_of([&] { read_packing(file); });
+  const Packing packing = read_packing(file);
+  const ForcePolytope polytope = find_force_polytope(packing);
+  const PolytopeBlock& block = polytope.blocks.at(0);
+  const Formulation formulation = choose_formulation(block.set.dim());
+  std::vector<Objective> objectives = natural_objectives(polytope, block);
+  LpSolver solver(block.set, formulation);
+  std::vector<Basis> optima;
+  for (const Objective& objective : objectives)
+    optima.push_back(solver.maximise(objective, optima.empty() ? block.lightest : optima.back()).basis);
+  const auto at_optima = [&](auto work) {
+    std::size_t i = 0;
+    return seconds_of([&] {
+      work(i);
+      i = (i + 1) % optima.size();
+    });
+  };
+  const double resolve = at_optima([&](std::size_t i) { solver.maximise(objectives[i], optima[i]); });
+  const double vertex = at_optima([&](std::size_t i) { compute_vertex(block.set, optima[i]); });
+  return {{"inequalities", block.set.inequalities()},
+          {"dim", block.set.dim()},
+          {"formulation", to_string(formulation)},
+          {"read_seconds", read_seconds},
+          {"solve_without_pivots_seconds", resolve},
+          {"vertex_seconds", vertex},
+          {"tableau_pivot_seconds", tableau_pivot_seconds(block.set, objectives, block.lightest)},
+          {"product_flops_per_second", product_rate()}};
+}
+
+}  // namespace
+}  // namespace indet::bench
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "bench_profile P.h5\n";
+    return 2;
+  }
+  try {
+    std::cout << indet::bench::measure(argv[1]).dump(1) << '\n';
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "bench_profile: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,17 @@
+#include "indet/range/method.h"
+
+namespace indet {
+
+const char* to_string(Method method) {
+  switch (method) {
+    case Method::kLp:
+      return "lp";
+    case Method::kPivotingPaper:
+      return "pivoting-paper";
+    case Method::kPivotingTableau:
+      return "pivoting-tableau";
+  }
+  return "?";
+}
+
+}  // namespace indet

@@ -1,0 +1,120 @@
+#include "indet/sampling/convex_body.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <limits>
+
+#include "indet/base/error.h"
+#include "indet/polytope/interior.h"
+
+namespace indet {
+
+double ConvexBody::slack(const Eigen::Ref<const Eigen::VectorXd>& z) const {
+  return (set.offset + set.slope * z).minCoeff();
+}
+
+ConvexBody make_body(const FeasibleSet& set) {
+  const Eigen::Index n = set.dim();
+  ConvexBody body;
+  body.set.slope = set.slope;
+  body.set.offset = set.offset;
+  body.blocks = {{0, set.inequalities(), 0, n}};
+  body.origin = Eigen::VectorXd::Zero(n);
+  body.frame = Eigen::MatrixXd::Identity(n, n);
+  return body;
+}
+
+ConvexBody make_body(const ForcePolytope& polytope) {
+  Eigen::Index rows = 0;
+  for (const PolytopeBlock& block : polytope.blocks) rows += block.set.inequalities();
+  const Eigen::SparseMatrix<double>& to_forces = polytope.contacts.edge_forces;
+  ConvexBody body;
+  body.set.slope = Eigen::MatrixXd::Zero(rows, polytope.dim);
+  body.set.offset.resize(rows);
+  body.frame = Eigen::MatrixXd::Zero(to_forces.rows(), polytope.dim);
+  Eigen::VectorXd x = polytope.lightest;
+  BodyBlock place;
+  for (const PolytopeBlock& block : polytope.blocks) {
+    place.rows = block.set.inequalities();
+    place.columns = block.set.dim();
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(to_forces.cols(), place.columns);
+    for (std::size_t k = 0; k < block.edges.size(); ++k) {
+      spread.row(block.edges[k]) = block.set.slope.row(static_cast<Eigen::Index>(k));
+      x[block.edges[k]] = block.set.offset[static_cast<Eigen::Index>(k)];
+    }
+    // F = … + J ζ = … + Q (U ζ): z = U ζ are orthonormal coordinates.
+    const Eigen::MatrixXd jacobian = to_forces * spread;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+    body.frame.middleCols(place.first_column, place.columns) =
+        qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), place.columns);
+    const Eigen::MatrixXd upper = qr.matrixQR().topRows(place.columns);
+    const Eigen::MatrixXd turned =
+        upper.triangularView<Eigen::Upper>().transpose().solve(block.set.slope.transpose());
+    body.set.slope.block(place.first_row, place.first_column, place.rows, place.columns) = turned.transpose();
+    body.set.offset.segment(place.first_row, place.rows) = block.set.offset;
+    body.blocks.push_back(place);
+    place.first_row += place.rows;
+    place.first_column += place.columns;
+  }
+  body.origin = to_forces * x;
+  return body;
+}
+
+InscribedBall find_inscribed_ball(const ConvexBody& body) {
+  InscribedBall ball{Eigen::VectorXd::Zero(body.dim()), std::numeric_limits<double>::infinity()};
+  for (const BodyBlock& block : body.blocks) {
+    FeasibleSet set;
+    set.slope = body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
+    const Eigen::VectorXd lengths = set.slope.rowwise().norm();
+    set.slope = lengths.cwiseInverse().asDiagonal() * set.slope;
+    const Eigen::VectorXd distances =
+        body.set.offset.segment(block.first_row, block.rows).cwiseQuotient(lengths);
+    // The linear program stops at slack 1: larger bodies are made smaller for it.
+    InteriorPoint point;
+    double unit = 1;
+    for (;; unit *= 16) {
+      set.offset = distances / unit;
+      point = find_interior_point(set, {});
+      if (point.slack < 0.99) break;
+      if (unit > 1e12) throw LibraryError("no largest ball in a body that should be bounded");
+    }
+    if (!(point.slack > 0)) throw LibraryError("the body to be sampled has no interior");
+    ball.center.segment(block.first_column, block.columns) = unit * point.z;
+    ball.radius = std::min(ball.radius, unit * point.slack);
+  }
+  return ball;
+}
+
+AnalyticCenter find_analytic_center(const ConvexBody& body, const Eigen::VectorXd& interior) {
+  constexpr int kMostSteps = 200;
+  constexpr double kDecrement = 1e-9;
+  AnalyticCenter center{interior, Eigen::MatrixXd::Zero(body.dim(), body.dim())};
+  for (const BodyBlock& block : body.blocks) {
+    const Eigen::MatrixXd slope =
+        body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
+    const Eigen::VectorXd offset = body.set.offset.segment(block.first_row, block.rows);
+    auto z = center.z.segment(block.first_column, block.columns);
+    // Columns in reverse order, so that the triangular factor of the QR decomposition is a lower one.
+    Eigen::MatrixXd scaled;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Eigen::VectorXd slacks = offset + slope * z;
+      scaled = slacks.cwiseInverse().asDiagonal() * slope.rowwise().reverse();
+      // The Newton direction (Sᵀ S)⁻¹ Sᵀ 1 is a least-squares solution.
+      const Eigen::VectorXd reversed =
+          Eigen::HouseholderQR<Eigen::MatrixXd>(scaled).solve(Eigen::VectorXd::Ones(block.rows));
+      const double decrement = (scaled * reversed).norm();
+      // The damped step 1/(1 + λ) stays inside the Dikin ellipsoid, and so inside the body.
+      z += reversed.reverse() * (decrement < 0.25 ? 1.0 : 1 / (1 + decrement));
+      if (!(decrement > kDecrement)) break;
+    }
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
+    const Eigen::MatrixXd upper = qr.matrixQR().topRows(block.columns).triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd lower = upper.reverse();
+    const Eigen::VectorXd signs = lower.diagonal().cwiseSign();
+    center.root.block(block.first_column, block.first_column, block.columns, block.columns) =
+        signs.asDiagonal() * lower;
+  }
+  return center;
+}
+
+}  // namespace indet

@@ -1,0 +1,84 @@
+#include "indet/sampling/coordinate_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace indet {
+namespace {
+
+/// Slacks stay above this, so that quotients stay finite; a chord towards such a face has no length.
+constexpr double kSmallestSlack = 1e-250;
+
+struct Chord {
+  double low, high;
+};
+
+/// Two numbers that the processor divides and compares at once; they need not be aligned.
+typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
+
+/// From the largest and the smallest a_k/s_k.
+Chord chord(const double* a, const double* s, Eigen::Index count) {
+  Pair largest = {0, 0};
+  Pair smallest = {0, 0};
+  Eigen::Index k = 0;
+  for (; k + 1 < count; k += 2) {
+    const Pair quotient = *reinterpret_cast<const Pair*>(a + k) / *reinterpret_cast<const Pair*>(s + k);
+    largest = quotient > largest ? quotient : largest;
+    smallest = quotient < smallest ? quotient : smallest;
+  }
+  double high = largest[0] > largest[1] ? largest[0] : largest[1];
+  double low = smallest[0] < smallest[1] ? smallest[0] : smallest[1];
+  if (k < count) {
+    high = std::max(high, a[k] / s[k]);
+    low = std::min(low, a[k] / s[k]);
+  }
+  return {-1 / high, -1 / low};
+}
+
+void move(double* s, const double* a, double step, Eigen::Index count) {
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double moved = s[k] + step * a[k];
+    s[k] = moved < kSmallestSlack ? kSmallestSlack : moved;
+  }
+}
+
+}  // namespace
+
+RoundedBody::RoundedBody(const ConvexBody& body, const Rounding& rounding)
+    : slope(Eigen::MatrixXd::Zero(body.set.slope.rows(), body.set.slope.cols())),
+      offset(body.set.offset + body.set.slope * rounding.center) {
+  for (const BodyBlock& block : body.blocks) {
+    const auto square =
+        rounding.transform.block(block.first_column, block.first_column, block.columns, block.columns);
+    slope.block(block.first_row, block.first_column, block.rows, block.columns) =
+        body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns) * square;
+    block_of_column.insert(block_of_column.end(), static_cast<std::size_t>(block.columns), block);
+  }
+}
+
+CoordinateWalk::CoordinateWalk(const RoundedBody& body, Eigen::VectorXd y, Random random)
+    : body_(&body), y_(std::move(y)), random_(random) {
+  refresh();
+}
+
+void CoordinateWalk::refresh() { slacks_ = (body_->offset + body_->slope * y_).cwiseMax(kSmallestSlack); }
+
+void CoordinateWalk::sweep(double precision) {
+  for (Eigen::Index j = 0; j < y_.size(); ++j) {
+    const BodyBlock& block = body_->block_of_column[static_cast<std::size_t>(j)];
+    const double* column = body_->slope.col(j).data() + block.first_row;
+    double* slacks = slacks_.data() + block.first_row;
+    Chord range = chord(column, slacks, block.rows);
+    if (precision > 0) {
+      const double reach = std::sqrt(y_[j] * y_[j] - 2 * std::log(1 - random_.uniform()) / precision);
+      range.low = std::max(range.low, -reach - y_[j]);
+      range.high = std::min(range.high, reach - y_[j]);
+    }
+    const double step = random_.uniform(range.low, range.high);
+    y_[j] += step;
+    move(slacks, column, step, block.rows);
+  }
+}
+
+}  // namespace indet

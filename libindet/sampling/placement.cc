@@ -1,0 +1,101 @@
+#include "indet/sampling/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "indet/base/tolerances.h"
+
+namespace indet {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The numbers that are compared. `state` in force units.
+struct Values {
+  double distance = 0, norm = 0, normal_force = 0, mobilisation = 0, R_star = kNaN;
+};
+
+double mean_mobilisation(const Packing& packing, const Eigen::VectorXd& state) {
+  double sum = 0;
+  int count = 0;
+  for (int k = 0; k < packing.contact_count(); ++k) {
+    const double limit = packing[ContactId(k)].mu * state[2 * k];
+    if (!(limit > tolerance::kSliding)) continue;
+    sum += std::abs(state[2 * k + 1]) / limit;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
+}
+
+double mean_R_star(const ForceRanges& ranges, const Eigen::VectorXd& state) {
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index k = 0; k < ranges.delta_R.size(); ++k) {
+    if (!(ranges.delta_R[k] > tolerance::kSliding) || std::isinf(ranges.delta_R[k])) continue;
+    sum += (state[2 * k] - ranges.value(k, kMinR) / ranges.force_unit) / ranges.delta_R[k];
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
+}
+
+Values values_of(const Packing& packing, const Eigen::VectorXd& center, const Eigen::VectorXd& state,
+                 const ForceRanges* ranges) {
+  Values v;
+  v.distance = (state - center).norm();
+  v.norm = state.norm();
+  for (Eigen::Index k = 0; k < state.size(); k += 2) v.normal_force += state[k];
+  v.mobilisation = mean_mobilisation(packing, state);
+  if (ranges != nullptr) v.R_star = mean_R_star(*ranges, state);
+  return v;
+}
+
+double percentile(const std::vector<Values>& samples, double Values::*member, double value) {
+  if (std::isnan(value)) return kNaN;
+  const auto below =
+      std::count_if(samples.begin(), samples.end(), [&](const Values& v) { return v.*member < value; });
+  return 100.0 * static_cast<double>(below) / static_cast<double>(samples.size());
+}
+
+}  // namespace
+
+Placement place_state(const Packing& packing, const ConvexBody& body, const UniformSample& sample,
+                      const Eigen::VectorXd& state, const ForceRanges* ranges) {
+  const double unit = packing.force_unit();
+  const Eigen::VectorXd F = state / unit;
+  const Values own = values_of(packing, sample.center, F, ranges);
+  Placement place;
+  place.most_sliding = 0;
+  std::vector<Values> samples;
+  samples.reserve(static_cast<std::size_t>(sample.count()));
+  for (Eigen::Index i = 0; i < sample.z.cols(); ++i) {
+    const Eigen::VectorXd drawn = body.origin + body.frame * sample.z.col(i);
+    samples.push_back(values_of(packing, sample.center, drawn, ranges));
+    place.most_sliding =
+        std::max(place.most_sliding, count_coulomb(packing, drawn * unit, tolerance::kSliding).sliding);
+  }
+  place.distance = own.distance;
+  place.distance_percentile = percentile(samples, &Values::distance, own.distance);
+  place.norm_percentile = percentile(samples, &Values::norm, own.norm);
+  place.normal_force_percentile = percentile(samples, &Values::normal_force, own.normal_force);
+  place.mobilisation_percentile = percentile(samples, &Values::mobilisation, own.mobilisation);
+  place.mean_R_star = own.R_star;
+  place.R_star_percentile = percentile(samples, &Values::R_star, own.R_star);
+  place.sliding = count_coulomb(packing, state, tolerance::kSliding).sliding;
+
+  int inside = 0;
+  int counted = 0;
+  for (int k = 0; k < body.frame.rows(); k += 2) {
+    if (!(sample.deviation[k] > tolerance::kSliding)) continue;
+    Eigen::VectorXd values = component_of(body, sample, k);
+    std::sort(values.begin(), values.end());
+    const std::span<const double> sorted(values.data(), static_cast<std::size_t>(values.size()));
+    inside += sorted_quantile(sorted, 0.05) <= F[k] && F[k] <= sorted_quantile(sorted, 0.95) ? 1 : 0;
+    ++counted;
+  }
+  place.central_fraction_R = counted > 0 ? static_cast<double>(inside) / counted : kNaN;
+  return place;
+}
+
+}  // namespace indet

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "indet/packing/packing.h"
+#include "indet/range/force_ranges.h"
+#include "indet/sampling/convex_body.h"
+#include "indet/sampling/uniform_sampling.h"
+
+namespace indet {
+
+/// Where one contact state, the simulated one, lies within a uniform sample. If every state were equally
+/// likely to come about, each percentile would be uniform in [0, 100] over many packings, and nine tenths of
+/// the contacts would have forces in the central nine tenths of their distributions.
+///
+/// A percentile is the percentage of samples whose value is smaller. NaN where a force is not known.
+struct Placement {
+  double distance = -1;                 ///< ‖F − F°‖ of the state, force units
+  double distance_percentile = -1;      ///< of that distance among those of the samples
+  double norm_percentile = -1;          ///< of ‖F‖
+  double normal_force_percentile = -1;  ///< of ΣR
+  double mobilisation_percentile = -1;  ///< of the mean of |T|/(μR) over contacts with friction and R > 0
+  double central_fraction_R = -1;       ///< contacts whose R lies between the 5 % and the 95 % quantile
+  int sliding = -1;                     ///< M_s of the state
+  int most_sliding = -1;                ///< the largest M_s of a sample; ε as in the paper
+  double mean_R_star = -1;              ///< of the state [39]; NaN without ranges
+  double R_star_percentile = -1;        ///< of that mean; NaN without ranges
+};
+
+/// `state`: (R_1, T_1, …) in the packing's units. `ranges`: may be null.
+Placement place_state(const Packing& packing, const ConvexBody& body, const UniformSample& sample,
+                      const Eigen::VectorXd& state, const ForceRanges* ranges);
+
+}  // namespace indet

@@ -1,0 +1,131 @@
+#include "indet/sampling/shape.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "indet/base/error.h"
+#include "indet/lp/lp_solver.h"
+#include "indet/lp/vertex.h"
+#include "indet/lp/walk.h"
+#include "indet/statistics/bootstrap.h"
+
+namespace indet {
+namespace {
+
+/// Finds the point of a body that lies farthest along a direction, block by block.
+class Support {
+ public:
+  Support(const ConvexBody& body, const Eigen::VectorXd& interior) : body_(body), interior_(interior) {
+    for (const BodyBlock& block : body.blocks) {
+      FeasibleSet& set = sets_.emplace_back();
+      set.slope = body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
+      set.offset = body.set.offset.segment(block.first_row, block.rows);
+    }
+    for (const FeasibleSet& set : sets_)
+      solvers_.push_back(std::make_unique<LpSolver>(set, Formulation::kDual));
+  }
+
+  Eigen::VectorXd farthest(const Eigen::VectorXd& direction) {
+    Eigen::VectorXd z(body_.dim());
+    for (std::size_t b = 0; b < sets_.size(); ++b) {
+      const BodyBlock& block = body_.blocks[b];
+      Objective objective;
+      objective.along_z = direction.segment(block.first_column, block.columns);
+      if (objective.along_z.norm() == 0) objective.along_z[0] = 1;  // any point will do
+      const Basis start =
+          walk_to_vertex(sets_[b], interior_.segment(block.first_column, block.columns), objective.along_z);
+      const LpAnswer answer = solvers_[b]->maximise(objective, start);
+      if (answer.status != LpStatus::kOptimal)
+        throw LibraryError("a linear program for the width of the polytope could not be solved");
+      z.segment(block.first_column, block.columns) = compute_vertex(sets_[b], answer.basis).z;
+    }
+    return z;
+  }
+
+ private:
+  const ConvexBody& body_;
+  Eigen::VectorXd interior_;
+  std::vector<FeasibleSet> sets_;
+  std::vector<std::unique_ptr<LpSolver>> solvers_;
+};
+
+/// The largest distance that is met when one goes from a point to the farthest one, again and again.
+double large_distance(const Eigen::MatrixXd& points) {
+  constexpr Eigen::Index kStarts = 64;
+  double largest = 0;
+  const Eigen::Index starts = std::min(kStarts, points.cols());
+  for (Eigen::Index start = 0; start < starts; ++start) {
+    Eigen::Index i = start * points.cols() / starts;
+    for (double reached = -1;;) {
+      Eigen::Index next = 0;
+      const double distance =
+          std::sqrt((points.colwise() - points.col(i)).colwise().squaredNorm().maxCoeff(&next));
+      largest = std::max(largest, distance);
+      if (!(distance > reached)) break;
+      reached = distance;
+      i = next;
+    }
+  }
+  return largest;
+}
+
+double range_diagonal(const ForceRanges& ranges) {
+  const double squares = ranges.delta_R.squaredNorm() + ranges.delta_T.squaredNorm();
+  return std::sqrt(squares);
+}
+
+}  // namespace
+
+PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample, const ForceRanges* ranges,
+                            const ShapeOptions& options) {
+  const int n = body.dim();
+  PolytopeShape shape;
+  shape.inscribed_radius = sample.ball.radius;
+  const Eigen::MatrixXd centred = sample.z.colwise() - sample.z.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(centred * centred.transpose());
+  Support support(body, sample.ball.center);
+  Eigen::MatrixXd points(n, 2 * (n + options.directions));
+  double squares = 0;
+  std::vector<double> widths;
+  Random random = random_of(options.seed, ChainKind::kWidth, 0);
+  for (int i = 0; i < n + options.directions; ++i) {
+    Eigen::VectorXd direction(n);
+    if (i < n) {
+      direction = axes.eigenvectors().col(n - 1 - i);
+    } else {
+      for (double& component : direction) component = random.normal();
+      direction.normalize();
+    }
+    points.col(2 * i) = support.farthest(direction);
+    points.col(2 * i + 1) = support.farthest(-direction);
+    const double width = direction.dot(points.col(2 * i) - points.col(2 * i + 1));
+    if (i < n) {
+      squares += width * width;
+    } else {
+      widths.push_back(width);
+    }
+    if (options.progress && !options.progress({"widths", i + 1, n + options.directions, {}}))
+      throw Interrupted();
+  }
+  const Estimate mean = mean_of(widths);
+  shape.mean_width = mean.value;
+  shape.mean_width_error = mean.error;
+  shape.diameter_lower = large_distance(points);
+  shape.diameter_upper = std::sqrt(squares);
+  shape.diameter_by_ranges = std::numeric_limits<double>::quiet_NaN();
+  if (ranges != nullptr) {
+    if (ranges->states.rows() > 0) {
+      const Eigen::MatrixXd states = ranges->states.transpose() / ranges->force_unit;
+      shape.diameter_lower = std::max(shape.diameter_lower, large_distance(states));
+    }
+    shape.diameter_by_ranges = range_diagonal(*ranges);
+    shape.diameter_upper = std::fmin(shape.diameter_upper, shape.diameter_by_ranges);
+  }
+  return shape;
+}
+
+}  // namespace indet

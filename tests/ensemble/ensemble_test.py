@@ -1,0 +1,168 @@
+"""Runs ensemble and merge as a user does, stops them, goes on, and reads the tables with h5py.
+
+Argument: the indet executable.
+"""
+
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import program
+
+TINY = ["--seeds", "2", "--disks", "12", "--samples", "5"]
+
+
+def table(path, name):
+    with h5py.File(path) as file:
+        return {column: values[()] for column, values in file[f"table/{name}"].items()}
+
+
+def content(path):
+    with h5py.File(path) as file:
+        return file.attrs["content_sha256"]
+
+
+class EnsembleTest(program.ProgramTest):
+    def ensemble(self, folder, *more, status=0):
+        return self.run_indet("ensemble", *TINY, "-o", folder, *more, status=status)
+
+    def test_tables_hold_what_the_units_hold(self):
+        self.ensemble("e", "--threads", "2")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        self.assertEqual([name.decode() for name in runs["unit"]],
+                         [f"{p}-{s:04}" for p in ("cd1", "cd2", "md1", "md2") for s in (0, 1)])
+        shown = json.loads(self.run_indet("inspect", "e", "--json").stdout)
+        self.assertEqual((shown["packings"], shown["intact"]), (8, True))
+        self.assertIn("md2", self.run_indet("inspect", "e/ensemble.h5").stdout)
+        self.assertTrue((runs["certified"] == 4 * runs["contacts"]).all())
+        self.assertTrue((runs["nullity"] >= runs["lower_bound"]).all())
+        self.assertEqual(len(contacts["run"]), runs["contacts"].sum())
+        for row, name in enumerate(runs["unit"]):
+            with h5py.File(self.folder / f"e/units/{name.decode()}.h5") as unit:
+                mine = contacts["run"] == row
+                np.testing.assert_array_equal(contacts["delta_R"][mine], unit["ranges/delta_R"][()])
+                np.testing.assert_allclose(contacts["R"][mine], unit["contacts/R"][()] / runs["mg"][row])
+                for states in ("extremal_R", "solver_extremal_R"):
+                    self.assertEqual(unit[f"ensemble/{states}"][()].sum(), 4 * runs["contacts"][row] ** 2)
+                self.assertEqual(runs["r"][row], unit["sampling"].attrs["r"])
+            self.run_indet("verify", f"e/units/{name.decode()}.h5")
+
+    def test_distances_compare_contacts_by_their_bodies(self):
+        self.ensemble("e")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        states = []
+        for name in ("cd1-0001", "md2-0001"):
+            with h5py.File(self.folder / f"e/units/{name}.h5") as unit:
+                c = unit["contacts"]
+                mg = unit["parameters"].attrs["mg"]
+                states.append({frozenset(pair): np.array([R, T]) / mg for *pair, R, T in
+                               zip(c["body_a"][()], c["body_b"][()], c["R"][()], c["T"][()])})
+        squares = sum(np.sum((states[0].get(k, 0) - states[1].get(k, np.zeros(2))) ** 2)
+                      for k in states[0].keys() | states[1].keys())
+        row = list(runs["unit"]).index(b"md2-0001")
+        self.assertAlmostEqual(runs["distance_cd1"][row], squares ** 0.5, delta=1e-9)
+        self.assertTrue(np.isnan(runs["distance_cd1"][list(runs["unit"]).index(b"md1-0001")]))
+
+    def test_killed_runs_go_on_to_the_same_tables(self):
+        self.ensemble("whole")
+        kills = 0
+        for delay in (0.15, 0.4, 0.8, 1.2):
+            process = subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "killed", "--threads", "2"],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL)
+            time.sleep(delay)
+            kills += process.poll() is None
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        self.assertGreater(kills, 0)
+        self.ensemble("killed")
+        self.assertEqual(content(self.folder / "killed/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        leftovers = [path for path in (self.folder / "killed").rglob("*.tmp")]
+        self.assertEqual(leftovers, [])
+
+    def test_a_finished_unit_is_skipped_and_a_damaged_or_different_one_is_not(self):
+        self.ensemble("e")
+        self.assertEqual(json.loads(self.ensemble("e", "--json").stdout)["skipped"], 8)
+        damaged = self.folder / "e/units/md1-0000.h5"
+        damaged.write_bytes(damaged.read_bytes()[:3000])
+        again = json.loads(self.ensemble("e", "--json").stdout)
+        self.assertEqual((again["done"], again["skipped"]), (1, 7))
+        other = json.loads(self.ensemble("e", "--mu", "0.5", "--json").stdout)
+        self.assertEqual(other["done"], 8)
+        more = json.loads(self.run_indet("ensemble", "--seeds", "3", *TINY[2:], "--mu", "0.5", "-o", "e", "--json").stdout)
+        self.assertEqual((more["done"], more["skipped"]), (4, 8))
+
+    def test_parts_join_to_the_same_tables(self):
+        self.ensemble("whole")
+        for part, units in enumerate(["0-1", "2-3", "4-5", "6-7"]):
+            self.ensemble(f"p{part}", "--units", units)
+        self.assertFalse((self.folder / "p0/ensemble.h5").exists())
+        missing = self.run_indet("merge", "p0", "p1", "p3", "-o", "m", status=3).stderr
+        self.assertIn("2 of 8 units are missing", missing)
+        self.assertIn("md1-0001", missing)
+        self.assertFalse((self.folder / "m").exists())
+        self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
+        self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        self.assertIn("is in two parts", self.run_indet("merge", "p0", "p1", "p2", "p3", "whole", "-o", "n", status=3).stderr)
+        self.run_indet("merge", "p0", "-o", "some", "--allow-missing", status=5)
+        with h5py.File(self.folder / "some/ensemble.h5") as file:
+            self.assertEqual(len(file["ensemble/missing"]), 6)
+
+    def test_packings_from_elsewhere(self):
+        self.packing(program.groove(), "one")
+        self.packing(program.groove(mu=0.5), "two")
+        self.run_indet("ensemble", "one.h5", "two.h5", "-o", "e")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        self.assertEqual([name.decode() for name in runs["unit"]], ["one", "two"])
+        s, c = 0.5, 0.75 ** 0.5
+        for row, mu in enumerate((0.3, 0.5)):
+            np.testing.assert_allclose(contacts["delta_R"][contacts["run"] == row], mu * s / (c**2 - mu**2 * s**2))
+
+    def test_failed_units_are_named_and_the_others_are_done(self):
+        self.packing(program.groove(), "good")
+        self.packing(program.groove(), "bad")
+        (self.folder / "e/units/bad.h5").mkdir(parents=True)  # cannot be written
+        done = self.run_indet("ensemble", "good.h5", "bad.h5", "-o", "e", status=5)
+        self.assertIn("bad: ", done.stderr)
+        self.assertIn("missing: bad", done.stdout)
+        self.assertEqual(list(table(self.folder / "e/ensemble.h5", "runs")["unit"]), [b"good"])
+
+    def test_an_interrupt_leaves_whole_files(self):
+        process = subprocess.Popen([program.INDET, "ensemble", "--seeds", "20", "-o", "e"], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        while not list((self.folder / "e/units").glob("*.h5")):
+            self.assertIsNone(process.poll(), "it ended before its first packing")
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        self.assertFalse((self.folder / "e/ensemble.h5").exists())
+        for path in (self.folder / "e/units").iterdir():
+            self.assertEqual(path.suffix, ".h5", error)
+            with h5py.File(path) as file:
+                self.assertEqual(file.attrs["complete"], 1)
+
+    def test_a_dry_run_lists_units_and_writes_nothing(self):
+        out = self.ensemble("e", "--dry-run").stdout
+        self.assertIn("md2-0001", out)
+        self.assertIn("8 packings, about", out)
+        self.assertEqual(self.files(), [])
+
+    def test_wrong_usage(self):
+        for units in ("7-9", "x", "3-1", "0-1z"):
+            self.ensemble("e", "--units", units, status=2)
+        self.run_indet("merge", ".", "-o", "m", status=3)
+        self.run_indet("ensemble", "--protocols", "cd3", "-o", "e", status=2)
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    program.main()

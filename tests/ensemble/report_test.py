@@ -1,0 +1,80 @@
+"""Makes a report and opens it in headless Chromium: nothing is fetched, nothing complains, every figure shows.
+
+Arguments: the indet executable, chromium.
+"""
+
+import csv
+import pathlib
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import program  # noqa: E402
+
+CHROMIUM = ""
+TINY = ["--seeds", "2", "--disks", "12", "--samples", "5"]
+FIGURES = ["fig03", "fig06a", "fig06b", "fig07", "fig08", "fig08-solver", "fig09", "fig10", "fig11", "fig12", "fig12-solver", "fig13"]
+PROBE = """<script>addEventListener("load", () => {
+  const seen = [...document.querySelectorAll("figure svg")].map(svg => {
+    const box = svg.getBoundingClientRect();
+    return box.width > 100 && box.height > 100 && svg.querySelectorAll("path,polygon,rect,circle,use").length > 5;
+  });
+  document.body.dataset.figures = seen.length;
+  document.body.dataset.hidden = seen.filter(x => !x).length;
+  document.body.dataset.fetched = performance.getEntriesByType("resource").filter(e => !e.name.startsWith("data:")).length;
+});</script></body>"""
+
+
+class ReportTest(program.ProgramTest):
+    def make(self):
+        self.run_indet("ensemble", *TINY, "-o", "e")
+        self.run_indet("report", "e")
+        return self.folder / "e"
+
+    def test_it_opens_in_a_browser_that_has_no_network(self):
+        folder = self.make()
+        text = (folder / "report.html").read_text()
+        for address in re.findall(r"https?://[^\s\"'<>)]+", text):
+            self.assertTrue(address.startswith("http://www.w3.org/"), address)
+        self.assertEqual(len(re.findall(r"\bid=[\"']([^\"']+)", text)), len(set(re.findall(r"\bid=[\"']([^\"']+)", text))))
+        probed = folder / "probed.html"
+        probed.write_text(text.replace("</body>", PROBE))
+        done = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
+                               f"--user-data-dir={self.folder}/profile", "--dump-dom", probed.as_uri()],
+                              capture_output=True, text=True, timeout=120, check=True)
+        self.assertNotIn("CONSOLE", done.stderr)
+        body = re.search(r"<body([^>]*)>", done.stdout).group(1)
+        self.assertIn(f'data-figures="{len(FIGURES) + 3}"', body)
+        self.assertIn('data-hidden="0"', body)
+        self.assertIn('data-fetched="0"', body)
+
+    def test_every_figure_is_there_as_vectors_numbers_and_script(self):
+        folder = self.make() / "figures"
+        for name in FIGURES:
+            self.assertTrue((folder / f"{name}.pdf").read_bytes().startswith(b"%PDF"), name)
+            with open(folder / f"{name}.csv", newline="") as file:
+                rows = list(csv.reader(file))
+            self.assertGreater(len(rows), 1)
+            self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+            before = (folder / f"{name}.svg").read_text()
+            (folder / f"{name}.svg").unlink()
+            subprocess.run(["gnuplot", f"{name}.gp"], cwd=folder, check=True, capture_output=True)
+            self.assertEqual((folder / f"{name}.svg").read_text(), before)
+
+    def test_the_table_beside_the_paper_is_there_as_numbers(self):
+        with open(self.make() / "figures/comparison.csv", newline="") as file:
+            rows = {row["quantity"]: row for row in csv.DictReader(file)}
+        self.assertEqual(rows["sliding contacts Ms ≤ 2M − 3N (Fig. 6b)"]["here"], "8 of 8")
+        self.assertIn("33 ± 1.4 mg", rows["r of perturb-and-resolve [38], CD-1"]["paper"])
+
+    def test_two_contacts_follow_the_formulas(self):
+        text = (self.make() / "report.html").read_text()
+        self.assertLess(float(re.search(r"difference from the formulas: ([\d.e+-]+)\.", text).group(1)), 1e-9)
+
+    def test_a_folder_without_an_ensemble_is_refused(self):
+        self.assertIn("has no ensemble.h5", self.run_indet("report", ".", status=3).stderr)
+
+
+if __name__ == "__main__":
+    program.main("CHROMIUM")

@@ -1,0 +1,144 @@
+#include "indet/pivoting/tableau_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "indet/base/random.h"
+#include "indet/lp/vertex.h"
+#include "indet/lp/walk.h"
+#include "support/oracle.h"
+#include "support/sets.h"
+
+namespace indet {
+namespace {
+
+class Rules : public testing::TestWithParam<PivotRule> {};
+
+Objective random_objective(const FeasibleSet& set, Random& random) {
+  std::vector<std::pair<int, double>> on_edges;
+  for (int k = 0; k < set.inequalities(); ++k)
+    if (random.below(2) == 0) on_edges.emplace_back(k, random.normal());
+  return make_objective(set, on_edges);
+}
+
+double best_corner(const FeasibleSet& set, const Objective& objective, const std::vector<int>& held) {
+  const Eigen::MatrixXd corners = oracle::enumerate_corners(set.slope, set.offset).vertices;
+  double best = -1e300;
+  for (const auto& corner : corners.rowwise()) {
+    const Eigen::VectorXd z = corner.transpose();
+    const bool on_face = std::all_of(held.begin(), held.end(), [&](int k) {
+      return std::abs(set.offset[k] + set.slope.row(k).dot(z)) < 1e-9;
+    });
+    if (on_face) best = std::max(best, objective.along_z.dot(z));
+  }
+  return best;
+}
+
+double value_of(const FeasibleSet& set, const Objective& objective, const LpAnswer& answer) {
+  const Vertex vertex = compute_vertex(set, answer.basis);
+  EXPECT_LE(vertex.infeasibility(), 1e-9);
+  return objective.along_z.dot(vertex.z);
+}
+
+TEST_P(Rules, FindTheBestCorner) {
+  Random random(61);
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    const int d = 1 + static_cast<int>(random.below(5));
+    const FeasibleSet set =
+        test::random_polytope(d, static_cast<int>(random.below(7)), repeat % 2 == 1, random);
+    TableauSolver solver(set, GetParam());
+    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    for (int goal = 0; goal < 5; ++goal) {
+      SCOPED_TRACE(std::to_string(repeat) + ", " + std::to_string(goal));
+      const Objective objective = random_objective(set, random);
+      const LpAnswer answer = solver.maximise(objective, start);
+      ASSERT_EQ(answer.status, LpStatus::kOptimal);
+      EXPECT_NEAR(value_of(set, objective, answer), best_corner(set, objective, {}), 1e-9);
+      EXPECT_TRUE(std::is_sorted(answer.basis.begin(), answer.basis.end()));
+      EXPECT_EQ(solver.maximise(objective, answer.basis).pivots, 0) << "an optimal start needs no pivot";
+    }
+  }
+}
+
+TEST_P(Rules, KeepHeldFaces) {
+  Random random(62);
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    const int d = 2 + static_cast<int>(random.below(3));
+    const FeasibleSet set = test::random_polytope(d, 5, repeat % 2 == 1, random);
+    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    // Everything that vanishes at the start may be held, in its basis or not.
+    const Vertex vertex = compute_vertex(set, start);
+    std::vector<int> held;
+    for (int k = 0; k < set.inequalities(); ++k) {
+      if (std::abs(vertex.x[k]) < 1e-12 && random.below(2) == 0) held.push_back(k);
+    }
+    TableauSolver solver(set, GetParam());
+    const Objective objective = random_objective(set, random);
+    SCOPED_TRACE(repeat);
+    const LpAnswer on_face = solver.maximise(objective, start, held);
+    ASSERT_EQ(on_face.status, LpStatus::kOptimal);
+    EXPECT_NEAR(value_of(set, objective, on_face), best_corner(set, objective, held), 1e-9);
+    const Vertex found = compute_vertex(set, on_face.basis);
+    for (const int k : held) EXPECT_NEAR(found.x[k], 0, 1e-12);
+    const LpAnswer free = solver.maximise(objective, start);
+    EXPECT_NEAR(value_of(set, objective, free), best_corner(set, objective, {}), 1e-9);
+  }
+}
+
+TEST_P(Rules, TellUnboundedFromOptimal) {
+  FeasibleSet set;  // z0 ≥ 0, z1 ≥ 0, z0 − z1 ≥ −1
+  set.slope.resize(3, 2);
+  set.slope << 1, 0, 0, 1, 1, -1;
+  set.offset = Eigen::Vector3d(0, 0, 1);
+  TableauSolver solver(set, GetParam());
+  EXPECT_EQ(solver.maximise(make_objective(set, {{1, 1.0}}), {0, 1}).status, LpStatus::kUnbounded);
+  const Objective down = make_objective(set, {{1, 1.0}, {0, -2.0}});
+  const LpAnswer answer = solver.maximise(down, {0, 1});
+  ASSERT_EQ(answer.status, LpStatus::kOptimal);
+  EXPECT_EQ(value_of(set, down, answer), 1);  // at (0, 1)
+}
+
+/// Beale's problem, on which Dantzig's rule with exact ties goes round for ever: maximise
+/// 3/4 a − 150 b + 1/50 c − 6 d over a, b, c, d ≥ 0 and the three inequalities below; 1/20 at (1/25, 0, 1,
+/// 0).
+TEST_P(Rules, DoNotCycle) {
+  FeasibleSet set;
+  set.slope = Eigen::MatrixXd::Identity(7, 4);
+  set.slope.row(4) << -0.25, 60, 1.0 / 25, -9;
+  set.slope.row(5) << -0.5, 90, 1.0 / 50, -3;
+  set.slope.row(6) << 0, 0, -1, 0;
+  set.offset = Eigen::VectorXd::Unit(7, 6);
+  TableauSolver solver(set, GetParam());
+  const Objective objective = make_objective(set, {{0, 0.75}, {1, -150}, {2, 1.0 / 50}, {3, -6}});
+  const LpAnswer answer = solver.maximise(objective, {0, 1, 2, 3});
+  ASSERT_EQ(answer.status, LpStatus::kOptimal);
+  EXPECT_NEAR(value_of(set, objective, answer), 0.05, 1e-15);
+}
+
+TEST_P(Rules, GiveUpAtTheirLimit) {
+  Random random(63);
+  const FeasibleSet set = test::random_polytope(6, 20, false, random);
+  LpOptions options;
+  options.iteration_limit = 1;
+  const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(6), -Eigen::VectorXd::Ones(6));
+  const Objective objective =
+      make_objective(set, {{0, 1.0}, {1, 1.0}, {2, 1.0}, {3, 1.0}, {4, 1.0}, {5, 1.0}});
+  const LpAnswer answer = TableauSolver(set, GetParam(), options).maximise(objective, start);
+  EXPECT_EQ(answer.status, LpStatus::kFailed);
+  EXPECT_TRUE(answer.basis.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Pivoting, Rules,
+                         testing::Values(PivotRule::kDantzig, PivotRule::kSteepestEdge,
+                                         PivotRule::kBestNeighbour),
+                         [](const auto& tested) {
+                           std::string name = to_string(tested.param);
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace indet

@@ -1,0 +1,146 @@
+#include "indet/range/method.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "indet/range/analyze.h"
+#include "support/compare.h"
+#include "support/oracle.h"
+#include "support/zoo.h"
+
+namespace indet {
+namespace {
+
+[[maybe_unused]] const int kSeeded = setenv("RC_PARAMS", "seed=2026", 0);
+
+ForceRanges analyze_by(Method method, const Packing& packing, int threads = 1) {
+  AnalyzeOptions options;
+  options.method = method;
+  options.threads = threads;
+  return analyze(packing, options);
+}
+
+/// What must hold of the paper's method: every value is right, or marked.
+void expect_right_or_marked(const ForceRanges& right, const ForceRanges& ranges) {
+  ASSERT_EQ(right.status, ranges.status);
+  ASSERT_EQ(right.dim, ranges.dim);
+  for (Eigen::Index i = 0; i < right.value.rows(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      SCOPED_TRACE("contact " + std::to_string(i) + ", " + to_string(static_cast<Column>(column)));
+      if (ranges.outcome(i, column) == Outcome::kImprecise) continue;
+      if (ranges.outcome(i, column) == Outcome::kFailed) {
+        EXPECT_TRUE(std::isnan(ranges.value(i, column)));
+        continue;
+      }
+      EXPECT_EQ(right.outcome(i, column), ranges.outcome(i, column));
+      EXPECT_TRUE(test::near(right.value(i, column), ranges.value(i, column), 1e-8))
+          << right.value(i, column) << " " << ranges.value(i, column) << ", dual residual "
+          << ranges.dual_residual(i, column);
+    }
+  }
+  EXPECT_LE(ranges.failed + ranges.imprecise, ranges.paper.failures());
+}
+
+std::vector<Packing> scenes() {
+  return {zoo::wedge(0.5, 0.3),
+          zoo::wedge(1.4, 0.3),
+          zoo::wedge(0, 0.3),
+          zoo::disk_on_floor(0.3),
+          zoo::disk_on_incline(0.2, 1),
+          zoo::pyramid(0.8, 0.6, 0.6),
+          zoo::column(6, 0.4, 0.3),
+          zoo::pinched_disk(0.25),
+          zoo::two_wedges(0.4, 0.3, 0.9, 0.5),
+          zoo::two_wedges(1.4, 0.3, 0.4, 0.3),
+          zoo::corner(0.4, 1.5),
+          zoo::wedge_and_corner(0.5, 0.3),
+          zoo::wedge_and_loose_disk(0.5, 0.3, 0),
+          zoo::lattice_pile(3, 0.6),
+          zoo::lattice_pile(5, 0.4),
+          zoo::lattice_pile(6, 0.9),
+          zoo::frictionless_column(5, 0.5)};
+}
+
+TEST(Methods, TheTableauGivesTheSameResultsInTheZoo) {
+  int number = 0;
+  for (const Packing& packing : scenes()) {
+    SCOPED_TRACE(number++);
+    const ForceRanges lp = analyze_by(Method::kLp, packing);
+    EXPECT_TRUE(test::same_ranges_and_weights(lp, analyze_by(Method::kPivotingTableau, packing), 1e-8));
+  }
+}
+
+TEST(Methods, ThePaperIsRightOrSaysSoInTheZoo) {
+  int number = 0;
+  for (const Packing& packing : scenes()) {
+    SCOPED_TRACE(number++);
+    expect_right_or_marked(analyze_by(Method::kLp, packing), analyze_by(Method::kPivotingPaper, packing));
+  }
+}
+
+TEST(Methods, TheTableauGivesTheSameResultsInPiles) {
+  EXPECT_TRUE(rc::check([] {
+    const Packing packing =
+        zoo::random_pile(*rc::gen::inRange<std::uint64_t>(0, 1000000), *rc::gen::inRange(1, 15),
+                         *rc::gen::element(-1.0, 0.05, 0.3, 0.7, 2.0));
+    const ForceRanges lp = analyze_by(Method::kLp, packing);
+    RC_ASSERT(bool(test::same_ranges(lp, analyze_by(Method::kPivotingTableau, packing), 1e-8)));
+  }));
+}
+
+TEST(Methods, ThePaperIsRightOrSaysSoInPiles) {
+  EXPECT_TRUE(rc::check([] {
+    const Packing packing =
+        zoo::random_pile(*rc::gen::inRange<std::uint64_t>(0, 1000000), *rc::gen::inRange(1, 12),
+                         *rc::gen::element(-1.0, 0.05, 0.3, 0.7, 2.0));
+    const ForceRanges lp = analyze_by(Method::kLp, packing);
+    const ForceRanges paper = analyze_by(Method::kPivotingPaper, packing);
+    RC_CLASSIFY(paper.paper.failures() > 0, "with failures");
+    expect_right_or_marked(lp, paper);
+    RC_ASSERT(!testing::Test::HasFailure());
+  }));
+}
+
+TEST(Methods, FailuresOfThePaperAreCounted) {
+  // Many inequalities meet in the extremal points of a lattice.
+  const ForceRanges ranges = analyze_by(Method::kPivotingPaper, zoo::lattice_pile(6, 0.9));
+  const PaperWork& work = ranges.paper;
+  EXPECT_GT(work.walks[static_cast<std::size_t>(WalkEnd::kMoreActive)], 0);
+  EXPECT_GE(work.failures(), work.walks[static_cast<std::size_t>(WalkEnd::kMoreActive)]);
+  EXPECT_EQ(work.walk_count(), ranges.objectives - ranges.determined);
+  EXPECT_GT(work.unexpected, 0);
+  EXPECT_EQ(work.neighbours, work.points * ranges.dim);
+  EXPECT_EQ(work.fallbacks(), 1) << "the pile has no simulated forces";
+}
+
+TEST(Methods, ThePaperStartsFromTheSimulatedState) {
+  Packing packing = zoo::column(6, 0.4, 0.3);
+  const ForceRanges lp = analyze_by(Method::kLp, packing);
+  ASSERT_EQ(lp.status, PolytopeStatus::kBounded);
+  // An extremal state, in which as many contacts slide as F has dimensions.
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    Contact& contact = packing.contacts[static_cast<std::size_t>(i)];
+    contact.R = lp.states(0, 2 * i);
+    contact.T = lp.states(0, 2 * i + 1);
+  }
+  const ForceRanges ranges = analyze_by(Method::kPivotingPaper, packing);
+  const PaperWork& work = ranges.paper;
+  EXPECT_EQ(work.fallbacks(), 0);
+  EXPECT_EQ(work.starts[static_cast<std::size_t>(InteriorEnd::kFound)], lp.blocks);
+  EXPECT_EQ(work.sliding_left, lp.dim);
+  expect_right_or_marked(lp, ranges);
+}
+
+TEST(Methods, ThreadsDoNotChangeTheResult) {
+  const Packing packing = zoo::random_pile(7, 20, 0.5);
+  for (const Method method : {Method::kPivotingPaper, Method::kPivotingTableau}) {
+    const ForceRanges one = analyze_by(method, packing, 1);
+    EXPECT_TRUE(test::same_bytes(one, analyze_by(method, packing, 3))) << to_string(method);
+  }
+}
+
+}  // namespace
+}  // namespace indet

@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "indet/base/error.h"
+#include "indet/range/analyze.h"
+#include "indet/sampling/uniform_sampling.h"
+#include "support/zoo.h"
+
+namespace indet {
+namespace {
+
+UniformSample draw(const ConvexBody& body, int threads = 1, std::uint64_t seed = 0) {
+  UniformOptions options;
+  options.threads = threads;
+  options.seed = seed;
+  return sample_uniformly(body, options);
+}
+
+/// F is a segment: with u uniform in [0, 1], R = R_min + u δR and T = T_min + u δT.
+TEST(Wedge, IsAUniformSegment) {
+  const double phi = 0.5, mu = 0.3;
+  const zoo::WedgeRanges exact = zoo::wedge_ranges(phi, mu);
+  const ConvexBody body = make_body(find_force_polytope(zoo::wedge(phi, mu)));
+  ASSERT_EQ(body.dim(), 1);
+  const UniformSample sample = draw(body);
+  ASSERT_TRUE(sample.converged);
+  const double error = 4 / std::sqrt(12 * sample.bulk);
+  EXPECT_NEAR((sample.center[0] - exact.R_min) / exact.delta_R, 0.5, error);
+  EXPECT_NEAR((sample.center[1] - exact.T_min) / exact.delta_T, 0.5, error);
+  EXPECT_NEAR(sample.center[2], sample.center[0], 1e-12);
+  EXPECT_NEAR(sample.center[3], -sample.center[1], 1e-12);
+  // The segment has the length (2 δR² + 2 δT²)^½ in the space of forces, and r = length/√12.
+  const double length = std::sqrt(2 * (exact.delta_R * exact.delta_R + exact.delta_T * exact.delta_T));
+  EXPECT_NEAR(sample.r, length / std::sqrt(12.0), 4 * sample.r_error);
+  EXPECT_LT(sample.r_error, 0.05 * sample.r);
+  EXPECT_NEAR(sample.ball.radius, length / 2, 1e-9);
+}
+
+TEST(TwoWedges, AreIndependent) {
+  const ConvexBody body = make_body(find_force_polytope(zoo::two_wedges(0.4, 0.3, 0.7, 0.2)));
+  ASSERT_EQ(body.blocks.size(), 2U);
+  const UniformSample sample = draw(body);
+  const Eigen::VectorXd left = component_of(body, sample, 0);
+  const Eigen::VectorXd right = component_of(body, sample, 4);
+  const double correlation = ((left.array() - left.mean()) * (right.array() - right.mean())).mean() /
+                             (sample.deviation[0] * sample.deviation[4]);
+  EXPECT_LT(std::abs(correlation), 4 / std::sqrt(sample.bulk));
+}
+
+/// Whatever contact is closed everywhere in F (here: all transmit through the wall with μ = 1 slides), the
+/// frame is isometric, and samples balance the load.
+TEST(Frame, IsIsometricAndKeepsBalance) {
+  for (const Packing& packing : {zoo::corner(0.5, 1), zoo::wedge_and_corner(0.4, 0.3),
+                                 zoo::column(8, 0.3, 0.4), zoo::two_wedges(0.4, 0.3, 0.7, 0.2)}) {
+    const ForcePolytope polytope = find_force_polytope(packing);
+    ASSERT_EQ(polytope.status, PolytopeStatus::kBounded);
+    const ConvexBody body = make_body(polytope);
+    EXPECT_EQ(body.dim(), polytope.dim);
+    const Eigen::MatrixXd gram = body.frame.transpose() * body.frame;
+    EXPECT_LT((gram - Eigen::MatrixXd::Identity(body.dim(), body.dim())).norm(), 1e-12);
+    const UniformSample sample = draw(body);
+    EXPECT_TRUE(sample.converged);
+    for (Eigen::Index i = 0; i < sample.z.cols(); i += 97) {
+      const Eigen::VectorXd F = (body.origin + body.frame * sample.z.col(i)) * packing.force_unit();
+      EXPECT_LT(equilibrium_residual(packing, F).cwiseAbs().maxCoeff(), 1e-11);
+      EXPECT_EQ(count_coulomb(packing, F, 1e-11).violated, 0);
+    }
+  }
+}
+
+TEST(Samples, LieInsideTheRangesThatLinearProgramsFind) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Packing packing = zoo::random_pile(seed, 12, 0.4);
+    const ForcePolytope polytope = find_force_polytope(packing);
+    if (polytope.status != PolytopeStatus::kBounded) continue;
+    const ForceRanges ranges = analyze(packing);
+    const ConvexBody body = make_body(polytope);
+    const UniformSample sample = draw(body, 1, seed);
+    EXPECT_TRUE(sample.converged) << seed;
+    for (int k = 0; k < body.frame.rows(); ++k) {
+      const Eigen::VectorXd values = component_of(body, sample, k) * packing.force_unit();
+      const int column = k % 2 == 0 ? kMinR : kMinT;
+      EXPECT_GE(values.minCoeff(), ranges.value(k / 2, column) - 1e-9);
+      EXPECT_LE(values.maxCoeff(), ranges.value(k / 2, column + 1) + 1e-9);
+    }
+  }
+}
+
+TEST(Samples, DoNotDependOnTheNumberOfThreads) {
+  const ConvexBody body = make_body(find_force_polytope(zoo::column(10, 0.3, 0.4)));
+  const UniformSample one = draw(body, 1);
+  const UniformSample three = draw(body, 3);
+  EXPECT_EQ(one.z, three.z);
+  EXPECT_EQ(one.rhat, three.rhat);
+  EXPECT_NE(one.center, draw(body, 1, 7).center);
+}
+
+TEST(Limit, IsReportedAsNotConverged) {
+  const ConvexBody body = make_body(find_force_polytope(zoo::column(10, 0.3, 0.4)));
+  UniformOptions options;
+  options.effective = 100000;
+  options.limit = 1000;
+  const UniformSample sample = sample_uniformly(body, options);
+  EXPECT_FALSE(sample.converged);
+  EXPECT_EQ(sample.sweeps, 1000);
+  EXPECT_LT(std::min(sample.bulk, sample.tail), 100000);
+}
+
+TEST(Options, ThatMakeNoSenseAreRefused) {
+  const ConvexBody body = make_body(find_force_polytope(zoo::wedge(0.4, 0.3)));
+  UniformOptions options;
+  options.chains = 1;
+  EXPECT_THROW(sample_uniformly(body, options), InputError);
+  options = {};
+  options.effective = 10;
+  EXPECT_THROW(sample_uniformly(body, options), InputError);
+  options = {};
+  options.limit = 10;
+  EXPECT_THROW(sample_uniformly(body, options), InputError);
+}
+
+}  // namespace
+}  // namespace indet
