@@ -194,15 +194,11 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
   fmt::print("\nlargest δR      contact     bodies        R_min     R_max     T_min     T_max   (mg)\n");
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
     const Eigen::Index k = order[i];
-    const Contact& contact = packing[ContactId(k)];
-    const std::string other = contact.b.is_wall() ? "wall " + packing[contact.b.wall_id()].name
-                                                  : std::to_string(packing[contact.b.disk_id()].id);
     Eigen::Array4d value = ranges.value.row(k).transpose() / ranges.force_unit;
     // 4e-15 is rounding around 0; the file has the digits.
     for (double& v : value) v = std::abs(v) < tolerance::kSliding ? 0 : v;
     fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
-               fmt::format("{}–{}", packing[contact.a].id, other), value[kMinR], value[kMaxR], value[kMinT],
-               value[kMaxT]);
+               contact_name(packing, ContactId(k)), value[kMinR], value[kMaxR], value[kMinT], value[kMaxT]);
   }
 }
 

@@ -125,7 +125,8 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   if (range.last - range.first + 1 < static_cast<int>(plan.units.size())) {
     return report_part(folder, range.first, range.last, outcomes, seconds(), context);
   }
-  return finish_ensemble(folder, plan, {folder}, outcomes, seconds, context);
+  return finish_ensemble(folder, plan, collect_units(plan, {folder}, context.progress()), outcomes, seconds,
+                         context);
 }
 
 }  // namespace

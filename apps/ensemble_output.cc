@@ -19,12 +19,6 @@ nlohmann::json failures_json(const std::vector<UnitFailure>& failures) {
   return json;
 }
 
-double sum(const FlatTable& table, const char* column) {
-  double result = 0;
-  for (const double value : table.numbers(column)) result += value;
-  return result;
-}
-
 }  // namespace
 
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
@@ -47,10 +41,9 @@ int report_part(const std::filesystem::path& folder, int first, int last, const 
   return outcomes.failures.empty() ? kDone : kUncertain;
 }
 
-int finish_ensemble(const std::filesystem::path& folder, const Plan& plan,
-                    const std::vector<std::filesystem::path>& folders, const Outcomes& outcomes,
-                    const std::function<double()>& seconds, const Context& context) {
-  Collection collection = collect_units(plan, folders, context.progress());
+int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,
+                    const Outcomes& outcomes, const std::function<double()>& seconds,
+                    const Context& context) {
   EnsembleContents contents{.config = plan.config,
                             .hash = plan.hash(),
                             .tables = std::move(collection.tables),
@@ -62,16 +55,16 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan,
   write_ensemble(path, contents, make_figures(contents.tables), provenance);
 
   const FlatTable& runs = contents.tables.runs;
-  const double uncertain = sum(runs, "imprecise") + sum(runs, "failed");
+  const double uncertain = runs.sum("imprecise") + runs.sum("failed");
   if (context.json) {
     std::cout << nlohmann::json{{"output", path.string()},
                                 {"packings", runs.rows()},
                                 {"contacts", contents.tables.contacts.rows()},
-                                {"objectives", sum(runs, "objectives")},
-                                {"certified", sum(runs, "certified")},
-                                {"unbounded", sum(runs, "unbounded")},
-                                {"imprecise", sum(runs, "imprecise")},
-                                {"not_found", sum(runs, "failed")},
+                                {"objectives", runs.sum("objectives")},
+                                {"certified", runs.sum("certified")},
+                                {"unbounded", runs.sum("unbounded")},
+                                {"imprecise", runs.sum("imprecise")},
+                                {"not_found", runs.sum("failed")},
                                 {"done", outcomes.done},
                                 {"skipped", outcomes.skipped},
                                 {"missing", contents.missing},
@@ -84,8 +77,8 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan,
                counted(static_cast<std::int64_t>(plan.units.size()), "packing"), outcomes.done,
                outcomes.skipped, outcomes.failures.size());
     fmt::print("{} contacts, {} objectives: {} certified, {} unbounded, {} imprecise, {} not found\n",
-               contents.tables.contacts.rows(), sum(runs, "objectives"), sum(runs, "certified"),
-               sum(runs, "unbounded"), sum(runs, "imprecise"), sum(runs, "failed"));
+               contents.tables.contacts.rows(), runs.sum("objectives"), runs.sum("certified"),
+               runs.sum("unbounded"), runs.sum("imprecise"), runs.sum("failed"));
     for (const std::string& name : contents.missing) fmt::print("missing: {}\n", name);
     fmt::print("written to {} ({:.1f} s)\n", path.string(), seconds());
   }

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "indet/ensemble/plan.h"
 #include "indet/ensemble/run.h"
+#include "indet/ensemble/table.h"
 
 namespace indet::app {
 
@@ -21,10 +22,9 @@ struct Outcomes {
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
                 double seconds, const Context& context);
 
-/// Reads the units of `folders`, writes FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5
-/// if units are missing or something is imprecise.
-int finish_ensemble(const std::filesystem::path& folder, const Plan& plan,
-                    const std::vector<std::filesystem::path>& folders, const Outcomes& outcomes,
-                    const std::function<double()>& seconds, const Context& context);
+/// Writes what was collected to FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5 if
+/// units are missing or something is imprecise.
+int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,
+                    const Outcomes& outcomes, const std::function<double()>& seconds, const Context& context);
 
 }  // namespace indet::app

@@ -5,11 +5,13 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "command.h"
 #include "configuration.h"
 #include "indet/base/error.h"
 #include "indet/base/version.h"
+#include "memory_limit.h"
 #include "terminal.h"
 
 namespace indet::app {
@@ -82,6 +84,10 @@ int main(int argc, char** argv) {
   using namespace indet;
   app::catch_signals();
   const auto complain = [](const char* message) { std::cerr << "indet: " << message << '\n'; };
+  if (const std::string lack = app::lack_of_memory(); !lack.empty()) {
+    complain(lack.c_str());
+    std::_Exit(app::kInternalError);  // threads of OpenBLAS that wait for memory would not end
+  }
   try {
     return app::run(argc, argv);
   } catch (const Interrupted&) {

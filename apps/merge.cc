@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -27,6 +28,7 @@ struct MergeCommand {
 /// A second name for the same bytes where the file system can, else a copy that appears whole.
 void bring(const fs::path& from, const fs::path& to) {
   std::error_code error;
+  fs::remove(to, error);  // what is there is not whole
   fs::create_hard_link(from, to, error);
   if (!error) return;
   const fs::path temporary = fs::path(to).concat(".tmp");
@@ -54,7 +56,8 @@ int run(const MergeCommand& o, const Context& context) {
                                     [&](const fs::path& part) { return fs::equivalent(part, folder); });
     if (!listed) folders.push_back(folder);
   }
-  const std::vector<std::string> missing = collect_units(plan, folders, context.progress()).missing;
+  Collection collection = collect_units(plan, folders, context.progress());
+  const std::vector<std::string>& missing = collection.missing;
   if (!missing.empty() && !o.allow_missing) {
     std::string list;
     for (const std::string& name : missing) list += "\n  " + name;
@@ -69,14 +72,14 @@ int run(const MergeCommand& o, const Context& context) {
       const fs::path from = unit_path(part, unit);
       if (!unit_is_done(from, unit)) continue;
       ++outcomes.skipped;
-      if (!fs::exists(unit_path(folder, unit))) bring(from, unit_path(folder, unit));
+      if (!unit_is_done(unit_path(folder, unit), unit)) bring(from, unit_path(folder, unit));
       break;
     }
   }
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  return finish_ensemble(folder, plan, {folder}, outcomes, seconds, context);
+  return finish_ensemble(folder, plan, std::move(collection), outcomes, seconds, context);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "indet/base/error.h"
@@ -25,7 +26,42 @@ struct SampleOptions {
   UniformSettings uniform;
 };
 
+/// Throws UsageError if an option was set that the method does not read. Defaults are not refused, so that a
+/// stored configuration, which has every option, reads back.
+void refuse_unused(const SampleOptions& o) {
+  const SampleOptions defaults;
+  const sim::PerturbOptions &p = o.perturb, &default_p = defaults.perturb;
+  const UniformSettings &u = o.uniform, &default_u = defaults.uniform;
+  struct Option {
+    const char* name;
+    const char* reader;
+    bool is_set;
+  };
+  std::vector<Option> unused;
+  if (o.method == "uniform") {
+    const char* reader = "--method perturb";
+    unused = {{"--samples", reader, p.samples != default_p.samples},
+              {"--width", reader, p.width != default_p.width},
+              {"--distance", reader, p.distance != default_p.distance},
+              {"--tolerance", reader, p.solver.tolerance != default_p.solver.tolerance},
+              {"--sweeps", reader, p.solver.max_sweeps != default_p.solver.max_sweeps},
+              {"--volume-sweeps", "--shape", !u.shape && u.volume_sweeps != default_u.volume_sweeps}};
+  } else {
+    const char* reader = "--method uniform";
+    unused = {{"--effective", reader, u.sampling.effective != default_u.sampling.effective},
+              {"--limit", reader, u.sampling.limit != default_u.sampling.limit},
+              {"--states", reader, u.states != default_u.states},
+              {"--shape", reader, u.shape != default_u.shape},
+              {"--volume-sweeps", reader, u.volume_sweeps != default_u.volume_sweeps}};
+  }
+  for (const Option& option : unused) {
+    if (option.is_set)
+      throw UsageError(fmt::format("{} is of {}, which was not given", option.name, option.reader));
+  }
+}
+
 int run(SampleOptions o, const Context& context) {
+  refuse_unused(o);
   const auto begin = std::chrono::steady_clock::now();
   const Packing packing = read_packing(o.file);
   o.uniform.sampling.seed = o.perturb.seed = o.seed;
@@ -92,7 +128,7 @@ void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
                   "... or until each chain has made so many sweeps (exit status 5)")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--states", uniform.states, "Number of samples to write")
+  command.add_option("--states", uniform.states, "Number of samples to write; at most all that were drawn")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group(group);

@@ -20,13 +20,6 @@
 namespace indet::app {
 namespace {
 
-std::string name_of(const Packing& packing, ContactId id) {
-  const Contact& contact = packing[id];
-  const std::string other = contact.b.is_wall() ? "wall " + packing[contact.b.wall_id()].name
-                                                : std::to_string(packing[contact.b.disk_id()].id);
-  return fmt::format("{}–{}", packing[contact.a].id, other);
-}
-
 /// The contacts whose forces grow along the ray, strongest first; largest entry 1.
 std::string describe_ray(const Packing& packing, const ForcePolytope& polytope) {
   Eigen::VectorXd forces = contact_state(polytope, polytope.ray);
@@ -42,7 +35,7 @@ std::string describe_ray(const Packing& packing, const ForcePolytope& polytope) 
   for (std::size_t i = 0; i < std::min(kShown, growing.size()); ++i) {
     const int k = growing[i];
     text += fmt::format("{}contact {} ({}) by R {:+.3g}, T {:+.3g}", i > 0 ? "; " : "", k,
-                        name_of(packing, ContactId(k)), forces[2 * k], forces[2 * k + 1]);
+                        contact_name(packing, ContactId(k)), forces[2 * k], forces[2 * k + 1]);
   }
   if (growing.size() > kShown) text += fmt::format("; and {} more contacts", growing.size() - kShown);
   return text;

@@ -24,17 +24,11 @@ std::string verdict(const Estimate& ours, double paper, double paper_error) {
   return std::abs(ours.value - paper) <= tolerance ? "agrees" : "differs";
 }
 
-/// Over the packings that have a value.
-double sum_known(const FlatTable& table, const char* column) {
-  double result = 0;
-  for (const double value : table.numbers(column)) result += std::isnan(value) ? 0 : value;
-  return result;
-}
-
-double sum(const FlatTable& table, const char* column) {
-  double result = 0;
-  for (const double value : table.numbers(column)) result += value;
-  return result;
+/// "95", or "12 … 40".
+std::string span_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (low == values.end()) return "–";
+  return *low == *high ? fmt::format("{:g}", *low) : fmt::format("{:g} … {:g}", *low, *high);
 }
 
 void add_dimensions(const EnsembleTables& tables, std::vector<Comparison>& rows) {
@@ -115,7 +109,23 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
                       near ? "agrees" : "differs"});
     }
   }
+  if (!reason_for_no_verdict(tables).empty()) {
+    for (Comparison& row : rows) row.verdict.clear();
+  }
   return rows;
+}
+
+std::string reason_for_no_verdict(const EnsembleTables& tables) {
+  constexpr int kDisks = 95;
+  constexpr double kFriction = 0.3;
+  const std::vector<double> disks = tables.runs.numbers("disks");
+  const std::vector<double> friction = tables.contacts.numbers("mu");
+  const auto as_in_paper = [](const std::vector<double>& values, double paper) {
+    return std::all_of(values.begin(), values.end(), [&](double value) { return value == paper; });
+  };
+  if (as_in_paper(disks, kDisks) && as_in_paper(friction, kFriction)) return "";
+  return fmt::format("The paper's numbers are for N = {} and μ = {:g}; here N = {} and μ = {}.", kDisks,
+                     kFriction, span_of(disks), span_of(friction));
 }
 
 std::vector<Comparison> beyond_the_paper(const EnsembleTables& tables) {
@@ -130,21 +140,21 @@ std::vector<Comparison> beyond_the_paper(const EnsembleTables& tables) {
     primal = std::fmax(primal, runs.number("worst_primal_residual", row));
     dual = std::fmax(dual, runs.number("worst_dual_residual", row));
   }
-  const double objectives = sum(runs, "objectives");
+  const double objectives = runs.sum("objectives");
   rows.push_back({"dim F equals the nullity", "", fmt::format("{} of {} packings", equal, runs.rows()), ""});
   rows.push_back(
-      {"minima and maxima certified", "", fmt::format("{} of {}", sum(runs, "certified"), objectives), ""});
+      {"minima and maxima certified", "", fmt::format("{} of {}", runs.sum("certified"), objectives), ""});
   rows.push_back(
-      {"imprecise, not found", "", fmt::format("{}, {}", sum(runs, "imprecise"), sum(runs, "failed")), ""});
+      {"imprecise, not found", "", fmt::format("{}, {}", runs.sum("imprecise"), runs.sum("failed")), ""});
   rows.push_back(
       {"without limit", "",
-       fmt::format("{} ({:.2g} %)", sum(runs, "unbounded"), 100 * sum(runs, "unbounded") / objectives), ""});
+       fmt::format("{} ({:.2g} %)", runs.sum("unbounded"), 100 * runs.sum("unbounded") / objectives), ""});
   rows.push_back({"attained by one state only", "",
-                  fmt::format("{} ({:.2g} %)", sum(runs, "unique"), 100 * sum(runs, "unique") / objectives),
+                  fmt::format("{} ({:.2g} %)", runs.sum("unique"), 100 * runs.sum("unique") / objectives),
                   ""});
-  if (sum_known(runs, "samples") > 0) {
+  if (runs.sum("samples") > 0) {
     rows.push_back({"perturbed solutions accepted", "",
-                    fmt::format("{} of {}", sum_known(runs, "accepted"), sum_known(runs, "samples")), ""});
+                    fmt::format("{} of {}", runs.sum("accepted"), runs.sum("samples")), ""});
   }
   rows.push_back({"worst residuals", "", fmt::format("primal {:.1e} mg, dual {:.1e}", primal, dual), ""});
   return rows;

@@ -175,10 +175,12 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
   const std::vector<Comparison> comparison = compare_with_paper(contents.tables);
   write_whole_file(figures_folder / "comparison.csv", csv_of(comparison));
   html += "<h2>The paper's numbers</h2>\n" + table_of(comparison, true);
+  const std::string other_case = reason_for_no_verdict(contents.tables);
   html +=
-      "<p class=\"note\">\"agrees\": within two standard errors of the difference; where the paper gives no "
-      "error, "
-      "within 10 %. File: figures/comparison.csv</p>\n";
+      fmt::format("<p class=\"note\">{} File: figures/comparison.csv</p>\n",
+                  other_case.empty() ? "\"agrees\": within two standard errors of the difference; where the "
+                                       "paper gives no error, within 10 %."
+                                     : other_case + " Hence there is no verdict.");
   html += "<h2>Beyond the paper</h2>\n" + table_of(beyond_the_paper(contents.tables), false);
   if (!pictures.empty()) {
     html += "<h2>Fig. 5: three contact states</h2>\n<div class=\"row\">\n";

@@ -39,18 +39,18 @@ std::string analysis_toml(const EnsembleConfig& config, std::int64_t seed) {
   return text;
 }
 
-/// Seconds on one core, fitted to runs with 95 to 400 disks; it orders the units and feeds the estimate of
-/// the remaining time.
+/// Seconds on one core, measured with 95 disks (docs/simulation.md, docs/ensemble.md); the exponents fit runs
+/// with 95 to 400. It orders the units and feeds the estimate of the remaining time.
 double cost_of(const EnsembleConfig& config, const std::string& protocol, double disks) {
   const double size = disks / 95;
-  double cost = 0.25 * std::pow(size, 3) * (config.solver_states ? 1.5 : 1.0);
-  cost += 0.003 * config.sampling.samples * std::pow(size, 1.5);
+  const double analysis = config.solver_states ? 0.31 : 0.21;
   const bool implicit = config.molecular_dynamics.gamma > 1e4;
-  if (protocol == "cd1") cost += 1.0 * std::pow(size, 1.5);
-  if (protocol == "cd2") cost += 0.4 * std::pow(size, 1.5);
-  if (protocol == "md1") cost += (implicit ? 12.0 : 1.6) * std::pow(size, 1.5);
-  if (protocol == "md2") cost += (implicit ? 0.5 : 0.6) * std::pow(size, 1.5);
-  return cost;
+  double rest = 0.0034 * config.sampling.samples;
+  if (protocol == "cd1") rest += 0.5;
+  if (protocol == "cd2") rest += 0.25;
+  if (protocol == "md1") rest += implicit ? 1.2 : 0.7;
+  if (protocol == "md2") rest += 0.13;
+  return analysis * std::pow(size, 3) + rest * std::pow(size, 1.5);
 }
 
 Unit simulated_unit(const EnsembleConfig& config, const std::string& protocol, std::int64_t seed) {

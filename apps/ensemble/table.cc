@@ -326,6 +326,12 @@ const std::string& FlatTable::text(const std::string& column, std::size_t row) c
   return find(column).texts.at(row);
 }
 
+double FlatTable::sum(const std::string& column) const {
+  double result = 0;
+  for (const double value : numbers(column)) result += std::isnan(value) ? 0 : value;
+  return result;
+}
+
 std::vector<double> FlatTable::numbers(const std::string& column) const {
   const Column& c = find(column);
   if (c.kind == Kind::kReal) return c.reals;

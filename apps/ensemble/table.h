@@ -37,6 +37,8 @@ class FlatTable {
   const std::string& text(const std::string& column, std::size_t row) const;
   /// A column of reals or integers.
   std::vector<double> numbers(const std::string& column) const;
+  /// Over the rows of such a column that have a value.
+  double sum(const std::string& column) const;
 
   void write(Hdf5File& file, const std::string& group) const;
   /// Fills the columns from a file.

@@ -58,6 +58,13 @@ bool Packing::has_simulated_forces() const {
                      [](const Contact& c) { return std::isfinite(c.R) && std::isfinite(c.T); });
 }
 
+std::string contact_name(const Packing& packing, ContactId contact) {
+  const Contact& c = packing[contact];
+  const std::string first = std::to_string(packing[c.a].id);
+  if (c.b.is_wall()) return first + "–wall " + packing[c.b.wall_id()].name;
+  return first + "–" + std::to_string(packing[c.b.disk_id()].id);
+}
+
 Vector2 geometric_normal(const Packing& packing, DiskId a, Body b) {
   if (b.is_wall()) return packing[b.wall_id()].normal.stableNormalized();
   const Vector2 difference = packing[a].position - packing[b.disk_id()].position;

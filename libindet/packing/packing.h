@@ -124,6 +124,9 @@ struct Packing {
   const Contact& operator[](ContactId i) const { return contacts[static_cast<std::size_t>(i.value())]; }
 };
 
+/// The bodies of a contact for a person, by their names in the scene: "12–7", "12–wall floor".
+std::string contact_name(const Packing& packing, ContactId contact);
+
 /// The direction from body b to the centre of disk a, from the positions alone [9]: x_a − x_b for two disks,
 /// the wall's normal for a wall; unit length. Throws InputError if two centres coincide.
 Vector2 geometric_normal(const Packing& packing, DiskId a, Body b);

@@ -33,9 +33,11 @@ inline constexpr double kConfidence = 0.95;
 
 /// K values, drawn without replacement from `population` (M) ones, f = K/M.
 ///
-///   mean ± t_{K−1} s √((1 − f)/K)           Student's t, finite population correction; exact for normal
-///   values band = √((1 − (K − 1)/M) ln(2/α) / 2K)  Dvoretzky, Kiefer & Wolfowitz with Serfling's correction,
-///   α = 1 − 0.95
+///   mean ± t_{K−1} s √((1 − f)/K)
+///   band = √((1 − (K − 1)/M) ln(2/α) / 2K),   α = 1 − 0.95
+///
+/// The interval is Student's with the finite population correction, exact for normally distributed values;
+/// the band is that of Dvoretzky, Kiefer and Wolfowitz with Serfling's correction.
 ///
 /// docs/accuracy.md has the measured coverage for force ranges, whose distribution is skewed. An infinite
 /// value makes the mean infinite and its interval NaN, as a single value does. Precondition: K ≥ 1; no NaN.

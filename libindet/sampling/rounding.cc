@@ -9,6 +9,7 @@
 #include "indet/base/error.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
+#include "indet/sampling/random_streams.h"
 
 namespace indet {
 namespace {
@@ -44,6 +45,7 @@ double apply_covariance(const ConvexBody& body, const Eigen::VectorXd& mean,
 struct Moments {
   Eigen::VectorXd sum;
   Eigen::MatrixXd products;
+  std::int64_t count = 0;
 };
 
 }  // namespace
@@ -58,6 +60,7 @@ RoundingResult round_body(const ConvexBody& body, const Eigen::VectorXd& interio
   // Enough for a covariance of n directions, even if many sweeps lie between independent samples.
   std::int64_t sweeps = 16 * n + 100;
   for (int phase = 0; phase < options.most_phases; ++phase, sweeps *= 2) {
+    const std::int64_t between = std::max<std::int64_t>(1, sweeps / (16 * n + 100));
     const RoundedBody rounded(body, result.rounding);
     const auto triangular = result.rounding.transform.triangularView<Eigen::Lower>();
     std::vector<Moments> moments(chains);
@@ -66,27 +69,25 @@ RoundingResult round_body(const ConvexBody& body, const Eigen::VectorXd& interio
       CoordinateWalk walk(rounded, triangular.solve(positions[c] - result.rounding.center),
                           random_of(options.seed, ChainKind::kRounding, chain + options.chains * phase));
       Moments& m = moments[c];
-      m = {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
-      const std::int64_t between = std::max<std::int64_t>(1, sweeps / (16 * n + 100));
+      m = {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n), 0};
       for (std::int64_t i = 0; i < sweeps; ++i) {
         walk.sweep();
         if (i % 64 == 0) walk.refresh();
         if (i < sweeps / 8 || i % between != 0) continue;
         m.sum += walk.position();
         m.products.selfadjointView<Eigen::Lower>().rankUpdate(walk.position());
+        ++m.count;
       }
       positions[c] = result.rounding.center + triangular * walk.position();
     });
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, n);
+    double count = 0;
     for (const Moments& m : moments) {
       mean += m.sum;
       products += m.products;
+      count += static_cast<double>(m.count);
     }
-    const std::int64_t between = std::max<std::int64_t>(1, sweeps / (16 * n + 100));
-    std::int64_t taken = 0;
-    for (std::int64_t i = sweeps / 8; i < sweeps; ++i) taken += i % between == 0 ? 1 : 0;
-    const double count = static_cast<double>(taken) * options.chains;
     mean /= count;
     const Eigen::MatrixXd lower = products / count - mean * mean.transpose();
     result.ratio = apply_covariance(body, mean, lower.selfadjointView<Eigen::Lower>(), result.rounding);

@@ -38,10 +38,4 @@ RoundingResult round_body(const ConvexBody& body, const Eigen::VectorXd& interio
 Eigen::MatrixXd dispersed_points(const ConvexBody& body, const Eigen::VectorXd& interior, int count,
                                  std::uint64_t seed);
 
-/// The streams of random numbers of a seed are shared out so that no two chains have the same.
-enum class ChainKind : std::uint64_t { kRounding = 1, kStart, kUniform, kVolume, kWidth };
-inline Random random_of(std::uint64_t seed, ChainKind kind, std::int64_t chain) {
-  return Random(seed, (static_cast<std::uint64_t>(kind) << 32) + static_cast<std::uint64_t>(chain));
-}
-
 }  // namespace indet

@@ -11,6 +11,7 @@
 #include "indet/lp/lp_solver.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
+#include "indet/sampling/random_streams.h"
 #include "indet/statistics/bootstrap.h"
 
 namespace indet {

@@ -11,6 +11,7 @@
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
+#include "indet/sampling/random_streams.h"
 
 namespace indet {
 namespace {

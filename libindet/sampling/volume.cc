@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "indet/base/error.h"
+#include "indet/sampling/random_streams.h"
 
 namespace indet {
 namespace {

@@ -1,37 +1,46 @@
 #include "indet/statistics/bootstrap.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "indet/base/random.h"
 
 namespace indet {
 
-Estimate mean_of(std::span<const double> values) {
-  double sum = 0;
+namespace {
+
+/// Of the values that are known.
+struct CountedMean {
+  double mean = std::numeric_limits<double>::quiet_NaN();
   int count = 0;
+};
+
+CountedMean counted_mean(std::span<const double> values) {
+  CountedMean result;
+  double sum = 0;
   for (const double value : values) {
     if (std::isnan(value)) continue;
     sum += value;
-    ++count;
+    ++result.count;
   }
+  if (result.count > 0) result.mean = sum / result.count;
+  return result;
+}
+
+}  // namespace
+
+Estimate mean_of(std::span<const double> values) {
+  const auto [mean, count] = counted_mean(values);
   Estimate estimate;
-  if (count == 0) return estimate;
-  estimate.value = sum / count;
+  estimate.value = mean;
   if (count > 1) estimate.error = standard_deviation(values) / std::sqrt(count);
   return estimate;
 }
 
 double standard_deviation(std::span<const double> values) {
-  double sum = 0;
-  int count = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    sum += value;
-    ++count;
-  }
+  const auto [mean, count] = counted_mean(values);
   if (count < 2) return std::numeric_limits<double>::quiet_NaN();
-  const double mean = sum / count;
   double squares = 0;
   for (const double value : values) {
     if (!std::isnan(value)) squares += (value - mean) * (value - mean);

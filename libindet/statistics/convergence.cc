@@ -1,9 +1,9 @@
 #include "indet/statistics/convergence.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <numeric>
 
 namespace indet {
@@ -86,20 +86,6 @@ double multi_chain_effective_size(std::span<const double> values, std::size_t le
 
 }  // namespace
 
-double normal_quantile(double p) {
-  // Abramowitz and Stegun 26.2.23 to 5e-4, then Halley's iteration on Φ(x) − p.
-  const double q = std::min(p, 1 - p);
-  const double t = std::sqrt(-2 * std::log(q));
-  double x =
-      (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308))) - t;
-  for (int step = 0; step < 3; ++step) {
-    const double error = 0.5 * std::erfc(-x / std::numbers::sqrt2) - q;
-    const double newton = error * std::sqrt(2 * std::numbers::pi) * std::exp(x * x / 2);
-    x -= newton / (1 + x * newton / 2);
-  }
-  return p < 0.5 ? x : -x;
-}
-
 double sorted_quantile(std::span<const double> ascending, double q) {
   const double place = q * static_cast<double>(ascending.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -110,9 +96,10 @@ double sorted_quantile(std::span<const double> ascending, double q) {
 ChainAssessor::ChainAssessor(int chains, int length) : chains_(chains), length_(length), half_(length / 2) {
   const std::size_t total = 2 * static_cast<std::size_t>(chains_) * static_cast<std::size_t>(half_);
   scores_.resize(2 * total - 1);
+  const boost::math::normal standard;
   for (std::size_t i = 0; i < scores_.size(); ++i) {
     const double rank = 1 + 0.5 * static_cast<double>(i);
-    scores_[i] = normal_quantile((rank - 0.375) / (static_cast<double>(total) + 0.25));
+    scores_[i] = boost::math::quantile(standard, (rank - 0.375) / (static_cast<double>(total) + 0.25));
   }
 }
 

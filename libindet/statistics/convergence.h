@@ -48,9 +48,6 @@ class ChainAssessor {
   std::vector<double> scores_;  ///< Φ⁻¹((ρ − 3/8)/(S + 1/4)) for ρ = 1, 3/2, 2, …, S
 };
 
-/// Φ⁻¹: the quantile of the standard normal distribution, for 0 < p < 1, to rounding.
-double normal_quantile(double p);
-
 /// The q-quantile of ascending values, interpolated between order statistics (0 and 1 are the ends).
 /// Precondition: not empty.
 double sorted_quantile(std::span<const double> ascending, double q);

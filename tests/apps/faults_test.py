@@ -6,6 +6,7 @@ Arguments: the indet executable, the LAMMPS dumps.
 
 import pathlib
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -125,11 +126,33 @@ class Disks(ProgramTest):
         self.assertIn("small/r.h5", done.stderr)
 
 
-class Interruptions(ProgramTest):
+class LammpsPacking(ProgramTest):
     def setUp(self):
         super().setUp()
         self.run_indet("import", "--format", "lammps", "--atoms", f"{LAMMPS}/atoms.dump", "--contacts",
                        f"{LAMMPS}/contacts.dump", "--friction", "0.3", "-o", "p.h5")
+
+
+class Memory(LammpsPacking):
+    def test_a_limit_of_memory_never_hangs(self):
+        if b"__asan_init" in pathlib.Path(program.INDET).read_bytes():
+            self.skipTest("AddressSanitizer reserves terabytes")
+        seen = set()
+        for megabytes in (160, 200, 250, 300, 330, 360, 400, 450, 600, 2000):
+            limit = megabytes << 20
+            done = subprocess.run([program.INDET, "--threads", "2", "analyze", "p.h5", "-o", "r.h5"], cwd=self.folder,
+                                  capture_output=True, text=True, timeout=60, check=False,
+                                  preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            seen.add(done.returncode)
+            self.assertIn(done.returncode, (0, 1), f"{megabytes} MB: {done.returncode} {done.stderr}")
+            if done.returncode == 1:
+                self.assertTrue(done.stderr.startswith("indet: "), f"{megabytes} MB: {done.stderr}")
+                self.assertEqual(self.files(), ["p.h5"], megabytes)
+            (self.folder / "r.h5").unlink(missing_ok=True)
+        self.assertEqual(seen, {0, 1})
+
+
+class Interruptions(LammpsPacking):
 
     def test_signals_at_random_moments(self):
         chance = random.Random(3)
@@ -154,7 +177,7 @@ class Interruptions(ProgramTest):
     def test_the_input_may_vanish_once_it_is_read(self):
         process = subprocess.Popen([program.INDET, "analyze", "p.h5", "-o", "r.h5"], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.5)
+        time.sleep(1)
         (self.folder / "p.h5").rename(self.folder / "q.h5")
         (self.folder / "p.h5").write_bytes(b"something else")
         _, errors = process.communicate(timeout=120)

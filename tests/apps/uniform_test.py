@@ -7,6 +7,7 @@ import json
 import math
 import pathlib
 import sys
+import tomllib
 
 import h5py
 import numpy as np
@@ -20,6 +21,14 @@ def pinched():
     scene = program.groove()
     scene["walls.csv"] = "id,px,py,nx,ny,name\n0,-1,0,1,0,left\n1,1,0,-1,0,right\n"
     return scene
+
+
+def balanced_pyramid():
+    """The symmetric forces of a pyramid whose lower disks press on each other with 0.1."""
+    sine = math.sqrt(3) / 2
+    R = (1 + sine - 0.1) / (0.5 + 2 * sine * (1 + sine))
+    T = 2 * sine * R - 1
+    return program.pyramid(0.9, forces=[(1.5, -T), (1.5, T), (0.1, 0), (R, T), (R, -T)])
 
 
 class Uniform(program.ProgramTest):
@@ -113,6 +122,36 @@ class Uniform(program.ProgramTest):
         packing = self.packing(program.groove())
         for arguments in (["--chains", "1"], ["--effective", "10"], ["--limit", "5"], ["--states", "-1"]):
             self.run_indet("sample", packing, "--method", "uniform", *arguments, status=2)
+
+    def test_options_that_the_method_does_not_read_are_2_and_named(self):
+        packing = self.packing(balanced_pyramid())
+        before = self.files()
+        for method, arguments, reader in [("uniform", ["--samples", "9"], "--method perturb"),
+                                          ("uniform", ["--width", "0.4"], "--method perturb"),
+                                          ("uniform", ["--distance", "1"], "--method perturb"),
+                                          ("uniform", ["--tolerance", "1e-5"], "--method perturb"),
+                                          ("uniform", ["--sweeps", "9"], "--method perturb"),
+                                          ("uniform", ["--volume-sweeps", "99"], "--shape"),
+                                          ("perturb", ["--effective", "500"], "--method uniform"),
+                                          ("perturb", ["--limit", "5000"], "--method uniform"),
+                                          ("perturb", ["--states", "1"], "--method uniform"),
+                                          ("perturb", ["--shape"], "--method uniform"),
+                                          ("perturb", ["--volume-sweeps", "99"], "--method uniform")]:
+            with self.subTest(arguments):
+                done = self.run_indet("sample", packing, "--method", method, *arguments, "-o", "s.h5", status=2)
+                self.assertIn(f"{arguments[0]} is of {reader}", done.stderr)
+                self.assertEqual(self.files(), before)
+
+    def test_stored_configurations_read_back(self):
+        packing = self.packing(balanced_pyramid())
+        for arguments in (["--method", "uniform", "--shape", "--volume-sweeps", "99"], ["--samples", "9"]):
+            with self.subTest(arguments):
+                self.run_indet("sample", packing, *arguments, "-o", "s.h5")
+                first = self.config_of("s.h5")
+                (self.folder / "again.toml").write_text(first)
+                (self.folder / "s.h5").unlink()
+                self.run_indet("--config", "again.toml", "sample", packing)
+                self.assertEqual(tomllib.loads(self.config_of("s.h5")), tomllib.loads(first))
 
 
 if __name__ == "__main__":

@@ -110,6 +110,12 @@ class EnsembleTest(program.ProgramTest):
         self.assertFalse((self.folder / "m").exists())
         self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
         self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        damaged = self.folder / "m/units/md1-0000.h5"
+        damaged.unlink()  # it is also the file of a part
+        damaged.write_bytes(b"damaged")
+        self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
+        self.run_indet("verify", damaged)
+        self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
         self.assertIn("is in two parts", self.run_indet("merge", "p0", "p1", "p2", "p3", "whole", "-o", "n", status=3).stderr)
         self.run_indet("merge", "p0", "-o", "some", "--allow-missing", status=5)
         with h5py.File(self.folder / "some/ensemble.h5") as file:

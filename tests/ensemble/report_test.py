@@ -67,6 +67,11 @@ class ReportTest(program.ProgramTest):
             rows = {row["quantity"]: row for row in csv.DictReader(file)}
         self.assertEqual(rows["sliding contacts Ms ≤ 2M − 3N (Fig. 6b)"]["here"], "8 of 8")
         self.assertIn("33 ± 1.4 mg", rows["r of perturb-and-resolve [38], CD-1"]["paper"])
+        # 12 disks are not the paper's 95.
+        self.assertEqual({row["verdict"] for row in rows.values()}, {""})
+        text = (self.folder / "e/report.html").read_text()
+        self.assertIn("for N = 95 and μ = 0.3; here N = 12 and μ = 0.3. Hence there is no verdict.", text)
+        self.assertNotIn('class="agrees"', text)
 
     def test_two_contacts_follow_the_formulas(self):
         text = (self.make() / "report.html").read_text()

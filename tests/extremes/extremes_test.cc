@@ -38,6 +38,38 @@ TEST(Extremes, NoRandomSceneIsSilentlyWrong) {
   EXPECT_GT(total.right, 2 * (total.marked + total.contained));
 }
 
+/// A column between two walls that touch each disk: the walls can press as hard as they like, so that every
+/// force grows without limit, but for the two that lift the uppermost disk: with T = X upwards at one wall
+/// and −Y at the other, balance of torques takes X + Y ≤ μ R = μ (mg − X + Y) from the contact below, and X ≤
+/// μ mg / (1 + μ) for μ < 1.
+TEST(Extremes, AColumnBetweenWallsIsLimitedOnlyAtItsTop) {
+  const double mu = 0.3;
+  for (const int count : {10, 60}) {
+    const ForceRanges ranges = analyze(zoo::column_between_walls(count, mu));
+    EXPECT_EQ(ranges.status, PolytopeStatus::kUnbounded);
+    EXPECT_EQ(ranges.certified, ranges.objectives);
+    EXPECT_EQ(ranges.unbounded, 3 * ranges.value.rows() - 2);
+    const Eigen::Index left = ranges.value.rows() - 2;
+    EXPECT_NEAR(ranges.value(left, kMaxT), mu / (1 + mu), 1e-12);
+    EXPECT_NEAR(ranges.value(left + 1, kMinT), -mu / (1 + mu), 1e-12);
+    EXPECT_LT(ranges.value.col(kMinR).cwiseAbs().maxCoeff(), 1e-12) << count;
+  }
+}
+
+/// Without friction a leaning column is determined, with a closed form.
+TEST(Extremes, LongColumnsHaveTheirClosedForm) {
+  const double theta = 0.4;
+  for (const int count : {10, 100, 1000}) {
+    const ForceRanges ranges = analyze(zoo::frictionless_column(count, theta));
+    ASSERT_EQ(ranges.status, PolytopeStatus::kPoint);
+    EXPECT_EQ(ranges.certified, ranges.objectives);
+    // Floor, then between disk k − 1 and k: (count − k) mg / cos θ.
+    EXPECT_NEAR(ranges.value(0, kMaxR), count, 1e-9 * count);
+    for (int k = 1; k < count; ++k)
+      ASSERT_NEAR(ranges.value(k, kMinR), (count - k) / std::cos(theta), 1e-9 * count) << k;
+  }
+}
+
 /// Multiplying by a power of two is exact, so nothing but the exponents may change.
 TEST(Extremes, PowersOfTwoScaleBitForBit) {
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -59,6 +91,24 @@ TEST(Extremes, PowersOfTwoScaleBitForBit) {
       }
     }
   }
+}
+
+TEST(Extremes, NoOtherMethodIsSilentlyWrong) {
+  Tally total;
+  const std::vector<Scene> scenes = extremes::fixed_scenes();
+  for (std::size_t number = 0; number < scenes.size(); number += 4) {
+    const extremes::Judge judge(scenes[number]);
+    for (const Method method : {Method::kPivotingTableau, Method::kPivotingPaper}) {
+      AnalyzeOptions options;
+      options.method = method;
+      const Tally tally = judge.judge(analyze(scenes[number].packing, options));
+      for (const std::string& complaint : tally.complaints)
+        ADD_FAILURE() << to_string(method) << ": " << complaint;
+      total.add(tally);
+    }
+  }
+  EXPECT_EQ(total.wrong, 0);
+  EXPECT_GT(total.right, total.marked + total.contained);
 }
 
 TEST(Extremes, TheJudgeSeesAWrongNumberAndAMissedBound) {

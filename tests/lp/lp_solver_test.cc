@@ -10,6 +10,7 @@
 #include "indet/lp/glpk_problem.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
+#include "support/objectives.h"
 #include "support/oracle.h"
 #include "support/sets.h"
 
@@ -19,33 +20,11 @@ void PrintTo(Formulation formulation, std::ostream* stream) { *stream << to_stri
 
 namespace {
 
+using test::best_corner;
+using test::random_objective;
+using test::value_of;
+
 class Formulations : public testing::TestWithParam<Formulation> {};
-
-std::vector<std::pair<int, double>> random_functional(const FeasibleSet& set, Random& random) {
-  std::vector<std::pair<int, double>> on_edges;
-  for (int k = 0; k < set.inequalities(); ++k)
-    if (random.below(2) == 0) on_edges.emplace_back(k, random.normal());
-  return on_edges;
-}
-
-/// Best value of g·z over the corners that lie on the held faces.
-double best_corner(const FeasibleSet& set, const oracle::Corners& corners, const Objective& objective,
-                   const std::vector<int>& held) {
-  double best = -1e300;
-  for (Eigen::Index i = 0; i < corners.vertices.rows(); ++i) {
-    const Eigen::VectorXd z = corners.vertices.row(i).transpose();
-    bool on_face = true;
-    for (const int k : held) on_face = on_face && std::abs(set.offset[k] + set.slope.row(k).dot(z)) < 1e-9;
-    if (on_face) best = std::max(best, objective.along_z.dot(z));
-  }
-  return best;
-}
-
-double value_of(const FeasibleSet& set, const Objective& objective, const LpAnswer& answer) {
-  const Vertex vertex = compute_vertex(set, answer.basis);
-  EXPECT_LE(vertex.infeasibility(), 1e-9);
-  return objective.along_z.dot(vertex.z);
-}
 
 TEST_P(Formulations, FindTheBestCornerWarmAndCold) {
   Random random(41);
@@ -58,7 +37,7 @@ TEST_P(Formulations, FindTheBestCornerWarmAndCold) {
     Basis last;
     for (int goal = 0; goal < 4; ++goal) {
       SCOPED_TRACE(std::to_string(repeat) + ", " + std::to_string(goal));
-      const Objective objective = make_objective(set, random_functional(set, random));
+      const Objective objective = random_objective(set, random);
       const double best = best_corner(set, corners, objective, {});
       const LpAnswer cold = solver.maximise(objective, {});
       ASSERT_EQ(cold.status, LpStatus::kOptimal);
@@ -84,7 +63,7 @@ TEST_P(Formulations, AnswersDependOnTheArgumentsAlone) {
   const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
   LpSolver used(set, GetParam());
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const Objective objective = make_objective(set, random_functional(set, random));
+    const Objective objective = random_objective(set, random);
     LpSolver fresh(set, GetParam());
     const LpAnswer first = used.maximise(objective, start);
     const LpAnswer second = fresh.maximise(objective, start);
@@ -102,7 +81,7 @@ TEST_P(Formulations, HeldFacesAreKeptAndThenReleased) {
     const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     LpSolver solver(set, GetParam());
     const std::vector<int> held(start.begin(), start.begin() + 1 + static_cast<long>(random.below(2)));
-    const Objective objective = make_objective(set, random_functional(set, random));
+    const Objective objective = random_objective(set, random);
     SCOPED_TRACE(repeat);
     const LpAnswer on_face = solver.maximise(objective, start, held);
     ASSERT_EQ(on_face.status, LpStatus::kOptimal);

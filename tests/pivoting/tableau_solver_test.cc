@@ -9,39 +9,18 @@
 #include "indet/base/random.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
+#include "support/objectives.h"
 #include "support/oracle.h"
 #include "support/sets.h"
 
 namespace indet {
 namespace {
 
+using test::best_corner;
+using test::random_objective;
+using test::value_of;
+
 class Rules : public testing::TestWithParam<PivotRule> {};
-
-Objective random_objective(const FeasibleSet& set, Random& random) {
-  std::vector<std::pair<int, double>> on_edges;
-  for (int k = 0; k < set.inequalities(); ++k)
-    if (random.below(2) == 0) on_edges.emplace_back(k, random.normal());
-  return make_objective(set, on_edges);
-}
-
-double best_corner(const FeasibleSet& set, const Objective& objective, const std::vector<int>& held) {
-  const Eigen::MatrixXd corners = oracle::enumerate_corners(set.slope, set.offset).vertices;
-  double best = -1e300;
-  for (const auto& corner : corners.rowwise()) {
-    const Eigen::VectorXd z = corner.transpose();
-    const bool on_face = std::all_of(held.begin(), held.end(), [&](int k) {
-      return std::abs(set.offset[k] + set.slope.row(k).dot(z)) < 1e-9;
-    });
-    if (on_face) best = std::max(best, objective.along_z.dot(z));
-  }
-  return best;
-}
-
-double value_of(const FeasibleSet& set, const Objective& objective, const LpAnswer& answer) {
-  const Vertex vertex = compute_vertex(set, answer.basis);
-  EXPECT_LE(vertex.infeasibility(), 1e-9);
-  return objective.along_z.dot(vertex.z);
-}
 
 TEST_P(Rules, FindTheBestCorner) {
   Random random(61);
@@ -49,6 +28,7 @@ TEST_P(Rules, FindTheBestCorner) {
     const int d = 1 + static_cast<int>(random.below(5));
     const FeasibleSet set =
         test::random_polytope(d, static_cast<int>(random.below(7)), repeat % 2 == 1, random);
+    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
     TableauSolver solver(set, GetParam());
     const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (int goal = 0; goal < 5; ++goal) {
@@ -56,7 +36,7 @@ TEST_P(Rules, FindTheBestCorner) {
       const Objective objective = random_objective(set, random);
       const LpAnswer answer = solver.maximise(objective, start);
       ASSERT_EQ(answer.status, LpStatus::kOptimal);
-      EXPECT_NEAR(value_of(set, objective, answer), best_corner(set, objective, {}), 1e-9);
+      EXPECT_NEAR(value_of(set, objective, answer), best_corner(set, corners, objective, {}), 1e-9);
       EXPECT_TRUE(std::is_sorted(answer.basis.begin(), answer.basis.end()));
       EXPECT_EQ(solver.maximise(objective, answer.basis).pivots, 0) << "an optimal start needs no pivot";
     }
@@ -68,6 +48,7 @@ TEST_P(Rules, KeepHeldFaces) {
   for (int repeat = 0; repeat < 60; ++repeat) {
     const int d = 2 + static_cast<int>(random.below(3));
     const FeasibleSet set = test::random_polytope(d, 5, repeat % 2 == 1, random);
+    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
     const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     // Everything that vanishes at the start may be held, in its basis or not.
     const Vertex vertex = compute_vertex(set, start);
@@ -80,11 +61,11 @@ TEST_P(Rules, KeepHeldFaces) {
     SCOPED_TRACE(repeat);
     const LpAnswer on_face = solver.maximise(objective, start, held);
     ASSERT_EQ(on_face.status, LpStatus::kOptimal);
-    EXPECT_NEAR(value_of(set, objective, on_face), best_corner(set, objective, held), 1e-9);
+    EXPECT_NEAR(value_of(set, objective, on_face), best_corner(set, corners, objective, held), 1e-9);
     const Vertex found = compute_vertex(set, on_face.basis);
     for (const int k : held) EXPECT_NEAR(found.x[k], 0, 1e-12);
     const LpAnswer free = solver.maximise(objective, start);
-    EXPECT_NEAR(value_of(set, objective, free), best_corner(set, objective, {}), 1e-9);
+    EXPECT_NEAR(value_of(set, objective, free), best_corner(set, corners, objective, {}), 1e-9);
   }
 }
 

@@ -25,14 +25,6 @@ std::vector<double> autoregressive(int chains, int length, double rho, std::uint
   return values;
 }
 
-TEST(NormalQuantile, OfSomeProbabilities) {
-  EXPECT_NEAR(normal_quantile(0.5), 0, 1e-15);
-  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-14);
-  EXPECT_NEAR(normal_quantile(1e-6), -4.753424308822899, 1e-12);
-  for (const double p : {1e-9, 1e-3, 0.02, 0.3, 0.49})
-    EXPECT_NEAR(normal_quantile(1 - p), -normal_quantile(p), 1e-6) << p;
-}
-
 TEST(SortedQuantile, InterpolatesBetweenOrderStatistics) {
   const std::vector<double> values = {0, 1, 4};
   EXPECT_DOUBLE_EQ(sorted_quantile(values, 0), 0);

@@ -186,6 +186,21 @@ void add_ratios(Collection& all) {
     touch(packing, high, Body::disk(low), 0.4);
     touch(packing, high, Body::wall(left), 0.4);
     all.add("radius ratio", power_name("upper disk ", k), packing);
+    // On the floor both, the unit disk at the left wall, the other one beside it and at a right wall.
+    Packing row;
+    row.gravity = {0, -1};
+    const WallId ground = add_wall(row, {0, 0}, {0, 1});
+    const WallId west = add_wall(row, {-1, 0}, {1, 0});
+    const double distance = 2 * std::sqrt(radius);
+    const WallId east = add_wall(row, {distance + radius, 0}, {-1, 0});
+    const DiskId unit = add_disk(row, {0, 1}, 1, 1);
+    const DiskId other = add_disk(row, {distance, radius}, radius, radius * radius);
+    touch(row, unit, Body::wall(ground), 0.4);
+    touch(row, unit, Body::wall(west), 0.4);
+    touch(row, other, Body::disk(unit), 0.4);
+    touch(row, other, Body::wall(ground), 0.4);
+    touch(row, other, Body::wall(east), 0.4);
+    all.add("radius ratio", power_name("beside each other ", k), row);
   }
   for (const int k : {-100, -12, 12, 100}) {
     const double factor = std::pow(10.0, k);
@@ -400,17 +415,33 @@ bool encloses(double lower, double upper, const mpq_class& value) {
   return above && below;
 }
 
+int sign_of(int column) { return column == kMaxR || column == kMaxT ? 1 : -1; }
+
 }  // namespace
 
-Tally judge(const Scene& scene, const ForceRanges& ranges) {
+Judge::Judge(const Scene& scene)
+    : name_(scene.kind + ", " + scene.name), unit_(scene.packing.internal_force_unit()) {
+  oracle::RationalSimplex exact(scene.packing);
+  empty_ = exact.is_empty();
+  rank_ = exact.rank();
+  if (empty_) return;
+  values_.resize(static_cast<std::size_t>(scene.packing.contact_count()));
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      const int component = 2 * static_cast<int>(i) + (column >= kMinT ? 1 : 0);
+      values_[i][static_cast<std::size_t>(column)] = exact.extremum(component, sign_of(column));
+    }
+  }
+}
+
+Tally Judge::judge(const ForceRanges& ranges) const {
   Tally tally;
   const auto complain = [&](const std::string& text) {
     ++tally.wrong;
-    tally.complaints.push_back(scene.kind + ", " + scene.name + ": " + text);
+    tally.complaints.push_back(name_ + ": " + text);
   };
-  oracle::RationalSimplex exact(scene.packing);
   const bool empty = ranges.status == PolytopeStatus::kEmpty;
-  if (exact.is_empty() != empty) {
+  if (empty_ != empty) {
     if (ranges.doubtful) {
       ++tally.marked;
     } else {
@@ -422,24 +453,24 @@ Tally judge(const Scene& scene, const ForceRanges& ranges) {
     ++(ranges.doubtful ? tally.marked : tally.right);
     return tally;
   }
-  if (!ranges.doubtful && ranges.rank != exact.rank()) complain("wrong rank " + std::to_string(ranges.rank));
-  for (int i = 0; i < scene.packing.contact_count(); ++i) {
+  if (!ranges.doubtful && ranges.rank != rank_) complain("wrong rank " + std::to_string(ranges.rank));
+  for (std::size_t i = 0; i < values_.size(); ++i) {
     for (int column = 0; column < 4; ++column) {
-      const Outcome outcome = ranges.outcome(i, column);
+      const auto row = static_cast<Eigen::Index>(i);
+      const Outcome outcome = ranges.outcome(row, column);
       if (outcome == Outcome::kImprecise || outcome == Outcome::kFailed) {
         ++tally.marked;
         continue;
       }
-      const int sign = column == kMaxR || column == kMaxT ? 1 : -1;
-      const auto value = exact.extremum(2 * i + (column >= kMinT ? 1 : 0), sign);
-      const double stored = ranges.value(i, column);
-      const double lower = ranges.lower(i, column);
-      const double upper = ranges.upper(i, column);
+      const std::optional<mpq_class>& value = values_[i][static_cast<std::size_t>(column)];
+      const double stored = ranges.value(row, column);
+      const double lower = ranges.lower(row, column);
+      const double upper = ranges.upper(row, column);
       const std::string place = "contact " + std::to_string(i) + " " + to_string(static_cast<Column>(column));
       if (!value) {
         if (std::isinf(stored)) {
           ++tally.right;
-        } else if (std::isinf(sign > 0 ? upper : lower)) {
+        } else if (std::isinf(sign_of(column) > 0 ? upper : lower)) {
           ++tally.contained;
         } else {
           complain(place + " is unbounded, stored " + std::to_string(stored));
@@ -451,13 +482,14 @@ Tally judge(const Scene& scene, const ForceRanges& ranges) {
                  " in [" + std::to_string(lower) + ", " + std::to_string(upper) + "]");
         continue;
       }
-      const mpq_class unit(scene.packing.internal_force_unit());
       const mpq_class size = abs(*value);
-      const mpq_class allowed = mpq_class(1e-9) * (size > unit ? size : unit);
+      const mpq_class allowed = mpq_class(1e-9) * (size > unit_ ? size : unit_);
       ++(abs(mpq_class(stored) - *value) <= allowed ? tally.right : tally.contained);
     }
   }
   return tally;
 }
+
+Tally judge(const Scene& scene, const ForceRanges& ranges) { return Judge(scene).judge(ranges); }
 
 }  // namespace indet::extremes

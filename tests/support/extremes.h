@@ -1,6 +1,10 @@
 #pragma once
 
+#include <gmpxx.h>
+
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +40,22 @@ struct Tally {
 
   void add(const Tally& other);
 };
+
+/// Knows the exact answers to a scene.
+class Judge {
+ public:
+  explicit Judge(const Scene& scene);
+  Tally judge(const ForceRanges& ranges) const;
+
+ private:
+  std::string name_;
+  mpq_class unit_;
+  bool empty_ = false;
+  int rank_ = 0;
+  /// Of each contact, by Column; nothing: unbounded.
+  std::vector<std::array<std::optional<mpq_class>, 4>> values_;
+};
+
 Tally judge(const Scene& scene, const ForceRanges& ranges);
 
 }  // namespace indet::extremes

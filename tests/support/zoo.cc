@@ -129,6 +129,20 @@ Packing column(int count, double theta, double mu) {
   return packing;
 }
 
+Packing column_between_walls(int count, double mu) {
+  Packing packing = empty_scene();
+  const WallId floor = add_wall(packing, {0, 0}, {0, 1});
+  const WallId left = add_wall(packing, {-1, 0}, {1, 0});
+  const WallId right = add_wall(packing, {1, 0}, {-1, 0});
+  for (int k = 0; k < count; ++k) {
+    const DiskId disk = add_disk(packing, {0, 1 + 2.0 * k});
+    touch(packing, disk, k == 0 ? Body::wall(floor) : Body::disk(DiskId(k - 1)), mu);
+    touch(packing, disk, Body::wall(left), mu);
+    touch(packing, disk, Body::wall(right), mu);
+  }
+  return packing;
+}
+
 Packing pinched_disk(double mu) {
   Packing packing = empty_scene();
   const DiskId disk = add_disk(packing, {0, 0});

@@ -1,0 +1,70 @@
+#include "indet/ensemble/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace indet {
+namespace {
+
+/// Two packings of each protocol with one contact each, whose dimensions are as in the paper and whose mean
+/// force and distances are not.
+EnsembleTables some_ensemble(int disks, double mu) {
+  EnsembleTables tables;
+  for (const char* protocol : {"cd1", "cd2", "md1", "md2"}) {
+    for (const int seed : {0, 1}) {
+      const std::size_t run = tables.runs.rows();
+      tables.runs.add_rows(1);
+      tables.runs.set("protocol", run, std::string(protocol));
+      tables.runs.set("seed", run, seed);
+      tables.runs.set("disks", run, disks);
+      tables.runs.set("lower_bound", run, 40);
+      tables.runs.set("dim", run, 41 + seed);
+      tables.runs.set("sliding", run, 5);
+      tables.runs.set("mean_R", run, 20 + 0.1 * seed);
+      tables.runs.set("r", run, 33 + 0.1 * seed);
+      tables.contacts.add_rows(1);
+      tables.contacts.set("run", run, static_cast<double>(run));
+      tables.contacts.set("mu", run, mu);
+    }
+  }
+  return tables;
+}
+
+std::set<std::string> verdicts(const EnsembleTables& tables) {
+  std::set<std::string> result;
+  for (const Comparison& row : compare_with_paper(tables)) result.insert(row.verdict);
+  return result;
+}
+
+TEST(Comparison, JudgesTheCaseOfThePaper) {
+  const EnsembleTables tables = some_ensemble(95, 0.3);
+  EXPECT_EQ(reason_for_no_verdict(tables), "");
+  EXPECT_EQ(verdicts(tables), (std::set<std::string>{"", "agrees", "differs"}));
+}
+
+TEST(Comparison, HasNoVerdictOnOtherSizes) {
+  const EnsembleTables tables = some_ensemble(400, 0.3);
+  EXPECT_EQ(reason_for_no_verdict(tables),
+            "The paper's numbers are for N = 95 and μ = 0.3; here N = 400 and μ = 0.3.");
+  EXPECT_EQ(verdicts(tables), std::set<std::string>{""});
+}
+
+TEST(Comparison, HasNoVerdictIfOnlySomePackingsAreOfThePaper) {
+  EnsembleTables tables = some_ensemble(95, 0.3);
+  tables.contacts.set("mu", 2, 0.5);
+  EXPECT_EQ(reason_for_no_verdict(tables),
+            "The paper's numbers are for N = 95 and μ = 0.3; here N = 95 and μ = 0.3 … 0.5.");
+  EXPECT_EQ(verdicts(tables), std::set<std::string>{""});
+}
+
+TEST(FlatTable, SumsWhatIsKnown) {
+  EnsembleTables tables = some_ensemble(95, 0.3);
+  EXPECT_EQ(tables.runs.sum("disks"), 8 * 95);
+  tables.runs.set("samples", 3, 500);
+  EXPECT_EQ(tables.runs.sum("samples"), 500);  // NaN elsewhere
+}
+
+}  // namespace
+}  // namespace indet
