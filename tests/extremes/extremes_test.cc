@@ -50,8 +50,8 @@ TEST(Extremes, AColumnBetweenWallsIsLimitedOnlyAtItsTop) {
     EXPECT_EQ(ranges.certified, ranges.objectives);
     EXPECT_EQ(ranges.unbounded, 3 * ranges.value.rows() - 2);
     const Eigen::Index left = ranges.value.rows() - 2;
-    EXPECT_NEAR(ranges.value(left, kMaxT), mu / (1 + mu), 1e-12);
-    EXPECT_NEAR(ranges.value(left + 1, kMinT), -mu / (1 + mu), 1e-12);
+    EXPECT_NEAR(ranges.value(left, kMinT), -mu / (1 + mu), 1e-12);  // the tangent points downwards there
+    EXPECT_NEAR(ranges.value(left + 1, kMaxT), mu / (1 + mu), 1e-12);
     EXPECT_LT(ranges.value.col(kMinR).cwiseAbs().maxCoeff(), 1e-12) << count;
   }
 }

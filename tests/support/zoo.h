@@ -57,8 +57,7 @@ Packing frictionless_column(int count, double theta);
 /// The same column with friction at every contact: 2M − 3N = count; bounded for small θ.
 Packing column(int count, double theta, double mu);
 
-/// `count` disks, each right on top of the one below, and each touching a wall on either side. Forces are
-/// limited by nothing.
+/// `count` disks, each right on top of the one below, and each touching a wall on either side: unbounded.
 Packing column_between_walls(int count, double mu);
 
 /// One disk between two vertical walls, no floor: T = ∓1/2 is determined, R ∈ [1/(2μ), ∞). (nullity 1)
