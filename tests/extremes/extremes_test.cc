@@ -40,8 +40,8 @@ TEST(Extremes, NoRandomSceneIsSilentlyWrong) {
 
 /// A column between two walls that touch each disk: the walls can press as hard as they like, so that every
 /// force grows without limit, but for the two that lift the uppermost disk: with T = X upwards at one wall
-/// and −Y at the other, balance of torques takes X + Y ≤ μ R = μ (mg − X + Y) from the contact below, and X ≤
-/// μ mg / (1 + μ) for μ < 1.
+/// and Y at the other, and R = mg − X − Y from the contact below, balance of torques takes |X − Y| ≤ μ R;
+/// hence X ≤ mg / 2, in the corner X = Y, for μ < 1.
 TEST(Extremes, AColumnBetweenWallsIsLimitedOnlyAtItsTop) {
   const double mu = 0.3;
   for (const int count : {10, 60}) {
@@ -50,8 +50,8 @@ TEST(Extremes, AColumnBetweenWallsIsLimitedOnlyAtItsTop) {
     EXPECT_EQ(ranges.certified, ranges.objectives);
     EXPECT_EQ(ranges.unbounded, 3 * ranges.value.rows() - 2);
     const Eigen::Index left = ranges.value.rows() - 2;
-    EXPECT_NEAR(ranges.value(left, kMinT), -mu / (1 + mu), 1e-12);  // the tangent points downwards there
-    EXPECT_NEAR(ranges.value(left + 1, kMaxT), mu / (1 + mu), 1e-12);
+    EXPECT_NEAR(ranges.value(left, kMinT), -0.5, 1e-12);  // the tangent points downwards there
+    EXPECT_NEAR(ranges.value(left + 1, kMaxT), 0.5, 1e-12);
     EXPECT_LT(ranges.value.col(kMinR).cwiseAbs().maxCoeff(), 1e-12) << count;
   }
 }
