@@ -97,6 +97,9 @@ void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
       ->capture_default_str()
       ->group(group);
   command
+      .add_flag("--covariance", uniform.covariance, "Write the covariances of all R and T, 2M x 2M numbers")
+      ->group(group);
+  command
       .add_flag("--shape", uniform.shape,
                 "Also find the diameter, the mean width and the volume of the polytope (with the ranges of "
                 "the file, or "
