@@ -58,8 +58,8 @@ std::string plot_commands(const Figure& figure) {
     text += fmt::format("set xrange {}\nset yrange {}\n", range(panel.x), range(panel.y));
     text += panel.y.logarithmic ? "set logscale y\nset format y '10^{%L}'\n"
                                 : "unset logscale y\nset format y '%g'\n";
-    text += panel.legend_below ? "set key default below horizontal samplen 2\n"
-                               : fmt::format("set key default samplen 3 spacing 1.1 {} top\n",
+    text += panel.legend_below ? "set key default below horizontal samplen 2\nset bmargin 6\n"
+                               : fmt::format("set key default samplen 3 spacing 1.1 {} top\nset bmargin\n",
                                              panel.legend_left ? "left" : "right");
     std::string separator = "plot ";
     for (const Series& series : panel.series) {

@@ -182,7 +182,7 @@ Figure tests(const Samples& samples) {
           "is "
           "cautious and stays below. Bars: standard error by bootstrap over the seeds.",
       .claim = "",
-      .finding = "p ≤ 0.05: ",
+      .finding = "Contacts with p ≤ 0.05, of which there would be 5 % if both samplings were the same. ",
       .panels = {}};
   const std::vector<std::string> all = {"cd1", "cd2", "md1", "md2"};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -197,7 +197,7 @@ Figure tests(const Samples& samples) {
         return;
       panel.series.push_back(cumulative(name, data, mark, colour));
       const Estimate small = fraction_between(data, -1, std::nextafter(0.05, 1.0));
-      figure.finding += fmt::format("{}, {}: {} % of the contacts. ", panel.title, name,
+      figure.finding += fmt::format("{} {}: {} %. ", i == 0 ? "Means," : "Distributions,", name,
                                     text_of({100 * small.value, 100 * small.error}, 1));
     };
     add("CD", samples.of(kCd, column), Mark::kLine, 0);
@@ -216,6 +216,7 @@ Panel percentiles(const Samples& samples, const char* column, const char* label,
               .y = {.label = "fraction of packings", .low = 0, .high = 1.05},
               .series = {},
               .legend_below = true};
+  finding += fmt::format("Mean {}", label);
   for (const Family& family : families_with(samples, column)) {
     std::vector<double> values;
     for (const double value : samples.runs(family.protocol, column)) {
@@ -239,9 +240,10 @@ Panel percentiles(const Samples& samples, const char* column, const char* label,
     const Estimate mean = mean_of(values);
     for (double& value : values) value /= 100;
     const double p = uniformity_probability(values);
-    finding += fmt::format("{}, {}: mean {}{}. ", label, family.name, text_of(mean, 1),
-                           std::isnan(p) ? std::string() : fmt::format(", p = {:.2g}", p));
+    finding += fmt::format("{} {} {}{}", panel.series.size() == 1 ? ":" : ",", family.name, text_of(mean, 1),
+                           std::isnan(p) ? std::string() : fmt::format(" (p = {:.1g})", p));
   }
+  finding += ". ";
   panel.series.push_back(line("equal", 100, 1));
   return panel;
 }
@@ -249,14 +251,17 @@ Panel percentiles(const Samples& samples, const char* column, const char* label,
 Figure states(const Samples& samples, const char* id, const char* title,
               const std::pair<const char*, const char*>& left,
               const std::pair<const char*, const char*>& right) {
-  Figure figure{.id = id,
-                .title = title,
-                .caption =
-                    "Fraction of packings in which the percentile of the simulated state among the uniform "
-                    "samples of its polytope is at most that on the axis. Dotted: all states equally likely.",
-                .claim = "",
-                .finding = "p: probability that uniform percentiles look like this (Kolmogorov–Smirnov). ",
-                .panels = {}};
+  Figure figure{
+      .id = id,
+      .title = title,
+      .caption =
+          "Fraction of packings in which the percentile of the simulated state among the uniform "
+          "samples of its polytope is at most that on the axis. Dotted: all states equally likely.",
+      .claim = "",
+      .finding =
+          "50 if all states are equally likely; p: probability of percentiles as far from uniform as "
+          "these (Kolmogorov–Smirnov). ",
+      .panels = {}};
   for (const auto& [column, label] : {left, right})
     figure.panels.push_back(percentiles(samples, column, label, figure.finding));
   return figure;
