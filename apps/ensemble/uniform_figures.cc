@@ -147,10 +147,12 @@ Figure places(const Samples& samples) {
     panel.legend_below = true;
     figure.panels.push_back(panel);
     for (const Curve& c : curves) {
-      if (!c.data.values.empty())
-        figure.finding += fmt::format("{}{}: {}. ", c.name,
-                                      c.name[0] == 'u' || c.name[0] == 'p' ? (md ? " (MD)" : " (CD)") : "",
-                                      text_of(mean_of(c.data), 3));
+      if (c.data.values.empty()) continue;
+      const bool sampled = c.name[0] == 'u' || c.name[0] == 'p';
+      const Estimate low = fraction_between(c.data, 0, 0.05);
+      figure.finding +=
+          fmt::format("{}{}: {}, {} % below 0.05. ", c.name, sampled ? (md ? " (MD)" : " (CD)") : "",
+                      text_of(grouped_mean(c.data), 3), text_of({100 * low.value, 100 * low.error}, 1));
     }
   }
   return figure;

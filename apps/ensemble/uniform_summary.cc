@@ -128,7 +128,7 @@ class Summary {
             above == from ? values.values[i] : std::abs(values.values[i] - other.values[i]);
         values.values[i] = unit.values[i] > 1e-6 ? difference / unit.values[i] : std::nan("");
       }
-      return text_of(mean_of(values), 2);
+      return text_of(grouped_mean(values), 2);
     };
     add("standard deviation of R, perturb-and-resolve : uniform, mean over contacts", "1",
         [&](const std::string& p) { return ratio(p, "perturb_R_deviation", "perturb_R_deviation"); });

@@ -193,7 +193,7 @@ Estimate fraction_between(const GroupedValues& data, double low, double high,
                options);
 }
 
-Estimate mean_of(const GroupedValues& data, const BootstrapOptions& options) {
+Estimate grouped_mean(const GroupedValues& data, const BootstrapOptions& options) {
   return ratio(sums_by_group(data,
                              [](double x, double& term) {
                                term = x;
