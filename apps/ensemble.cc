@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,7 +24,7 @@ namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, units, preset = "stiff";
+  std::string folder, scene_file, units, preset = "stiff", uniform_seeds = "60";
   std::optional<int> disks;
   std::optional<double> mu;
   EnsembleConfig config;
@@ -29,6 +32,16 @@ struct EnsembleCommand {
   bool dry_run = false;
   bool no_solver_states = false;
 };
+
+/// "all", or a number.
+std::int64_t count_of(const std::string& text) {
+  std::int64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (text == "all") return std::numeric_limits<std::int64_t>::max();
+  if (error != std::errc() || end != text.data() + text.size() || count < 0)
+    throw UsageError(fmt::format("--uniform-seeds {}: expected a number, or all", text));
+  return count;
+}
 
 EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
   EnsembleConfig config = o.config;
@@ -41,6 +54,9 @@ EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
   if (!o.files.empty() && o.protocols.empty() && !seeds_given) config.protocols.clear();
   config.molecular_dynamics = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
   config.solver_states = !o.no_solver_states;
+  // Not more than there are.
+  config.uniform_seeds = std::min(count_of(o.uniform_seeds),
+                                  std::max(config.seeds, static_cast<std::int64_t>(config.files.size())));
   return config;
 }
 
@@ -160,6 +176,11 @@ Command add_ensemble(CLI::App& root) {
       ->add_option("--sample-distance", o->config.sampling.distance,
                    "Solve until balanced forces are as close as this (mg)")
       ->check(not_negative())
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--uniform-seeds", o->uniform_seeds,
+          "Packings of the first so many seeds (and files) are sampled uniformly too; all, or 0: none")
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the vertices that the solver lands on");

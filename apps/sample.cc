@@ -51,6 +51,7 @@ void refuse_unused(const SampleOptions& o) {
     unused = {{"--effective", reader, u.sampling.effective != default_u.sampling.effective},
               {"--limit", reader, u.sampling.limit != default_u.sampling.limit},
               {"--states", reader, u.states != default_u.states},
+              {"--covariance", reader, u.covariance != default_u.covariance},
               {"--shape", reader, u.shape != default_u.shape},
               {"--volume-sweeps", reader, u.volume_sweeps != default_u.volume_sweeps}};
   }
@@ -131,6 +132,9 @@ void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
   command.add_option("--states", uniform.states, "Number of samples to write; at most all that were drawn")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
+      ->group(group);
+  command
+      .add_flag("--covariance", uniform.covariance, "Write the covariances of all R and T, 2M x 2M numbers")
       ->group(group);
   command
       .add_flag("--shape", uniform.shape,

@@ -10,6 +10,7 @@
 
 #include "indet/base/error.h"
 #include "indet/base/tolerances.h"
+#include "indet/ensemble/uniform_record.h"
 #include "indet/io/ranges_file.h"
 #include "indet/io/sampling_file.h"
 #include "indet/range/analyze.h"
@@ -53,96 +54,22 @@ struct Findings {
 };
 
 std::map<std::string, double> numbers_of(const Findings& f, const UniformSettings& settings) {
-  const UniformSample& s = f.sample;
-  std::map<std::string, double> numbers = {{"dim", f.polytope.dim},
-                                           {"blocks", static_cast<double>(f.polytope.blocks.size())},
-                                           {"seed", static_cast<double>(settings.sampling.seed)},
-                                           {"r", s.r},
-                                           {"r_error", s.r_error},
-                                           {"spread", s.spread},
-                                           {"mean_norm", s.mean_norm},
-                                           {"norm_deviation", s.norm_deviation},
-                                           {"converged", s.converged ? 1 : 0},
-                                           {"worst_residual", f.worst_residual}};
-  if (f.body) {
-    numbers.insert({{"requested", settings.sampling.effective},
-                    {"chains", s.chains},
-                    {"samples", s.count()},
-                    {"interval", static_cast<double>(s.interval)},
-                    {"sweeps", static_cast<double>(s.sweeps)},
-                    {"steps", static_cast<double>(s.steps)},
-                    {"warm_up_phases", s.rounding.phases},
-                    {"rhat", s.rhat},
-                    {"ess", std::min(s.bulk, s.tail)},
-                    {"bulk_ess", s.bulk},
-                    {"tail_ess", s.tail},
-                    {"slowest", s.slowest},
-                    {"worst_slack", s.worst_slack},
-                    {"inscribed_radius", s.ball.radius}});
-  }
-  if (f.placement) {
-    const Placement& p = *f.placement;
-    numbers.insert({{"start_distance", p.distance},
-                    {"start_distance_percentile", p.distance_percentile},
-                    {"start_norm_percentile", p.norm_percentile},
-                    {"start_normal_force_percentile", p.normal_force_percentile},
-                    {"start_mobilisation_percentile", p.mobilisation_percentile},
-                    {"start_central_fraction_R", p.central_fraction_R},
-                    {"start_sliding", p.sliding},
-                    {"most_sliding", p.most_sliding}});
-    if (f.shape) {
-      numbers.insert(
-          {{"start_mean_R_star", p.mean_R_star}, {"start_R_star_percentile", p.R_star_percentile}});
-    }
-  }
+  std::map<std::string, double> numbers = f.body ? numbers_of(f.polytope, f.sample, settings.sampling)
+                                                 : numbers_of_point(f.sample, settings.sampling);
+  numbers["worst_residual"] = f.worst_residual;
+  if (f.placement) numbers.merge(numbers_of(*f.placement));
   if (f.shape) {
     numbers.insert({{"diameter_lower", f.shape->diameter_lower},
                     {"diameter_upper", f.shape->diameter_upper},
                     {"diameter_by_ranges", f.shape->diameter_by_ranges},
                     {"mean_width", f.shape->mean_width},
                     {"mean_width_error", f.shape->mean_width_error},
+                    {"unsolved_widths", f.shape->unsolved},
                     {"log_volume", f.volume->log_volume},
                     {"log_volume_error", f.volume->error},
                     {"volume_phases", f.volume->phases}});
   }
   return numbers;
-}
-
-/// Every sample that is a `count`-th of all.
-Eigen::MatrixXd some_states(const Findings& f, int count) {
-  Eigen::MatrixXd states(f.body->frame.rows(), count);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Index from = static_cast<Eigen::Index>(i) * f.sample.count() / count;
-    states.col(i) = f.body->origin + f.body->frame * f.sample.z.col(from);
-  }
-  return states;
-}
-
-ComponentRecord components_of(const Findings& f, int states, double unit) {
-  const Eigen::Index count = f.body->frame.rows();
-  ComponentRecord record;
-  record.deviation = unit * f.sample.deviation;
-  record.quantile_levels.resize(5);
-  record.quantile_levels << 0.05, 0.25, 0.5, 0.75, 0.95;
-  record.quantiles.resize(count, 5);
-  record.rhat.resize(count);
-  record.bulk.resize(count);
-  record.tail.resize(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Convergence& c = f.sample.components[static_cast<std::size_t>(k)];
-    record.rhat[k] = c.rhat;
-    record.bulk[k] = c.bulk;
-    record.tail[k] = c.tail;
-    Eigen::VectorXd values = component_of(*f.body, f.sample, static_cast<int>(k));
-    std::sort(values.begin(), values.end());
-    for (int q = 0; q < 5; ++q) {
-      record.quantiles(k, q) =
-          unit * sorted_quantile({values.data(), static_cast<std::size_t>(values.size())},
-                                 record.quantile_levels[q]);
-    }
-  }
-  record.states = unit * some_states(f, states);
-  return record;
 }
 
 void print(const Packing& packing, const Findings& f, const UniformSettings& settings) {
@@ -178,6 +105,7 @@ void print(const Packing& packing, const Findings& f, const UniformSettings& set
         "mg\n",
         f.shape->inscribed_radius, f.shape->diameter_lower, f.shape->diameter_upper, f.shape->mean_width,
         f.shape->mean_width_error);
+    if (f.shape->unsolved > 0) fmt::print("NOT solved: {} linear programs for widths\n", f.shape->unsolved);
     fmt::print("log volume: {:.4g} ± {:.2g} (dimension {}, mg)\n", f.volume->log_volume, f.volume->error,
                f.polytope.dim);
   }
@@ -203,17 +131,6 @@ void find_shape(const std::string& file, const Packing& packing, const UniformSe
   volume.threads = context.thread_count();
   volume.progress = context.progress();
   f.volume = estimate_volume(*f.body, f.sample, volume);
-}
-
-/// The one state of a polytope that is a point.
-UniformSample sample_of_point(const Packing& packing, const ForcePolytope& polytope) {
-  UniformSample sample;
-  sample.converged = true;
-  sample.center = contact_state(polytope, polytope.lightest);
-  sample.deviation = Eigen::VectorXd::Zero(2 * packing.contact_count());
-  sample.r = sample.r_error = sample.spread = sample.norm_deviation = 0;
-  sample.mean_norm = sample.center.norm();
-  return sample;
 }
 
 void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findings& f) {
@@ -252,7 +169,7 @@ int sample_uniformly(const std::string& file, const std::string& output, const P
   }
   std::optional<ForceRanges> ranges;
   if (f.polytope.status == PolytopeStatus::kPoint) {
-    f.sample = sample_of_point(packing, f.polytope);
+    f.sample = sample_of_point(f.polytope);
   } else {
     f.body = make_body(f.polytope);
     f.sample = indet::sample_uniformly(*f.body, settings.sampling);
@@ -263,11 +180,17 @@ int sample_uniformly(const std::string& file, const std::string& output, const P
     }
   }
   const int states = f.body ? std::min(settings.states, f.sample.count()) : 0;
-  if (f.body) check_balance(packing, some_states(f, std::max(states, 1)), f);
+  if (f.body) check_balance(packing, some_states(*f.body, f.sample, std::max(states, 1)), f);
   check_balance(packing, f.sample.center, f);
 
   SamplingRecord record{"uniform", unit * f.sample.center, numbers_of(f, settings), {}};
-  if (f.body) record.components = components_of(f, states, unit);
+  if (f.body) {
+    record.components = components_of(*f.body, f.sample, unit);
+    record.components->states = unit * some_states(*f.body, f.sample, states);
+    if (settings.covariance)
+      record.components->covariance =
+          unit * unit * f.body->frame * f.sample.covariance * f.body->frame.transpose();
+  }
   if (!output.empty()) {
     Provenance provenance{context.arguments, context.resolved_config, {}, {}};
     provenance.seconds["sample"] = f.sample.seconds;
@@ -283,7 +206,8 @@ int sample_uniformly(const std::string& file, const std::string& output, const P
     print(packing, f, settings);
     if (!output.empty()) fmt::print("written to {} ({:.2f} s)\n", output, f.sample.seconds);
   }
-  return f.sample.converged && !f.polytope.doubtful ? kDone : kUncertain;
+  const bool all = f.sample.converged && (!f.shape || f.shape->unsolved == 0);
+  return all && !f.polytope.doubtful ? kDone : kUncertain;
 }
 
 }  // namespace indet::app

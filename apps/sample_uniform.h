@@ -11,6 +11,7 @@ namespace indet::app {
 struct UniformSettings {
   UniformOptions sampling;
   int states = 0;            ///< how many of the samples are written
+  bool covariance = false;   ///< all covariances are written
   bool shape = false;        ///< size and shape of the polytope too
   int volume_sweeps = 1000;  ///< sweeps of each chain and phase for the volume
 };

@@ -50,6 +50,7 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   contents.tables.runs.write(file, "/table/runs");
   contents.tables.contacts.write(file, "/table/contacts");
   contents.tables.extremal.write(file, "/table/extremal");
+  contents.tables.sampled.write(file, "/table/sampled");
   file.make_group("/figures");
   for (const Figure& figure : figures) write_figure(file, figure);
   write_provenance_part(file, provenance);
@@ -76,6 +77,7 @@ EnsembleContents read_ensemble(const std::filesystem::path& path) {
   contents.tables.runs.read(file, "/table/runs");
   contents.tables.contacts.read(file, "/table/contacts");
   contents.tables.extremal.read(file, "/table/extremal");
+  contents.tables.sampled.read(file, "/table/sampled");
   contents.tables.timings.read(file, "/provenance/units");
   const std::size_t failures = file.shape("/provenance/failures/unit", 1)[0];
   const auto units = file.read_strings("/provenance/failures/unit", failures);

@@ -31,6 +31,7 @@ struct Panel {
   Axis x, y;
   std::vector<Series> series;
   bool legend_left = false;
+  bool legend_below = false;  ///< Under the axis, where curves fill the panel.
 };
 
 /// One figure: its data and what is said about it. SVG, PDF, CSV, gnuplot script, HDF5 group and HTML are all

@@ -11,7 +11,9 @@
 #include <string>
 #include <utility>
 
+#include "indet/ensemble/curves.h"
 #include "indet/ensemble/samples.h"
+#include "indet/ensemble/uniform_figures.h"
 #include "indet/range/analyze.h"
 #include "indet/statistics/distribution.h"
 
@@ -19,11 +21,6 @@ namespace indet {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kDensity =
-    "Probability densities, normalised over all values, those beyond the axis included. Bars: standard error "
-    "by "
-    "bootstrap over the seeds.";
-
 constexpr const char* kCanonical =
     "where many states attain an optimum, the one of smallest total normal force";
 constexpr const char* kSolver = "where many states attain an optimum, the vertex that the solver lands on";
@@ -87,30 +84,6 @@ Figure two_contacts() {
                   .y = {.label = "δR, δT", .low = 0, .high = 2},
                   .series = {curve_R, curve_T, ours_R, ours_T},
                   .legend_left = true}}};
-}
-
-struct Family {
-  const char* protocol;
-  const char* name;
-  int colour;
-  int symbol;
-};
-constexpr std::array<Family, 4> kFamilies = {
-    {{"cd1", "CD-1", 0, 0}, {"cd2", "CD-2", 1, 1}, {"md1", "MD-1", 2, 2}, {"md2", "MD-2", 3, 3}}};
-
-Series scatter(const EnsembleTables& tables, const Family& family, const char* x, const char* y) {
-  Series series{.name = family.name,
-                .x = {},
-                .y = {},
-                .mark = Mark::kPoints,
-                .colour = family.colour,
-                .symbol = family.symbol};
-  for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
-    if (tables.runs.text("protocol", row) != family.protocol) continue;
-    series.x.push_back(tables.runs.number(x, row));
-    series.y.push_back(tables.runs.number(y, row));
-  }
-  return series;
 }
 
 std::pair<double, double> limits(const std::vector<double>& values) {
@@ -180,19 +153,6 @@ std::vector<Figure> dimensions(const EnsembleTables& tables) {
   return {first, second};
 }
 
-Series curve(const std::string& name, const GroupedValues& data, double width, double high, Mark mark,
-             int colour, bool thick, bool logarithmic) {
-  const int bins = std::max(1, static_cast<int>(std::ceil(high / width - 1e-9)));
-  const Histogram h = histogram(data, 0, width, bins, {.resamples = 100});
-  Series series{.name = name, .x = {}, .y = {}, .error = {}, .mark = mark, .colour = colour, .thick = thick};
-  for (std::size_t bin = 0; bin < h.density.size(); ++bin) {
-    series.x.push_back(h.center(bin));
-    series.y.push_back(logarithmic && h.density[bin] <= 0 ? kNaN : h.density[bin]);
-    series.error.push_back(h.error[bin]);
-  }
-  return series;
-}
-
 std::string tail_text(const char* name, const GroupedValues& data, double from) {
   const TailFit fit = fit_tail(data, from);
   return fmt::format("{}: {:.2f} ± {:.2f} mg ({:.0f} values in {:.3g} … {:.3g} mg). ", name, fit.decay.value,
@@ -203,47 +163,6 @@ std::string maximum_text(const char* name, const GroupedValues& data) {
   const Estimate maximum = main_maximum(data);
   if (std::isnan(maximum.value)) return fmt::format("{}: none. ", name);
   return fmt::format("{}: {:.1f} ± {:.1f} mg. ", name, maximum.value, maximum.error);
-}
-
-struct Curve {
-  const char* name;
-  GroupedValues data;
-  Mark mark;
-  int colour;
-  bool thick;
-};
-
-Panel panel_of(const std::vector<Curve>& curves, const char* label, bool logarithmic, double high,
-               double width) {
-  Panel panel{.title = "",
-              .x = {.label = label, .low = 0, .high = high},
-              .y = {.label = "probability density", .logarithmic = logarithmic},
-              .series = {}};
-  for (const Curve& c : curves) {
-    if (c.data.values.empty()) continue;
-    panel.series.push_back(curve(c.name, c.data, width, high, c.mark, c.colour, c.thick, logarithmic));
-  }
-  if (!logarithmic) {
-    for (const Series& series : panel.series) {
-      for (const double y : series.y) panel.y.high = std::max(panel.y.high, 1.15 * y);
-    }
-  }
-  return panel;
-}
-
-double largest_of(const std::vector<Curve>& curves) {
-  double high = 0;
-  for (const Curve& c : curves) high = std::max(high, largest(c.data));
-  return high;
-}
-
-/// Where a linear axis ends: beyond it are at most 0.5 % of the values of each curve.
-double end_of_axis(const std::vector<Curve>& curves) {
-  double high = 0;
-  for (const Curve& c : curves) {
-    if (!c.data.values.empty()) high = std::fmax(high, quantile(c.data, 0.995));
-  }
-  return high;
 }
 
 std::vector<Curve> pair_of_methods(const Samples& samples, const char* normal, const char* tangential) {
@@ -421,6 +340,7 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
         extremal_forces(samples, "fig12-solver", "Fig. 12 with the solver's vertices", true, kSolver));
   }
   figures.push_back(families(samples));
+  for (Figure& figure : uniform_figures(tables)) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -58,7 +58,9 @@ std::string plot_commands(const Figure& figure) {
     text += fmt::format("set xrange {}\nset yrange {}\n", range(panel.x), range(panel.y));
     text += panel.y.logarithmic ? "set logscale y\nset format y '10^{%L}'\n"
                                 : "unset logscale y\nset format y '%g'\n";
-    text += fmt::format("set key {} top\n", panel.legend_left ? "left" : "right");
+    text += panel.legend_below ? "set key default below horizontal samplen 2\nset bmargin 6\n"
+                               : fmt::format("set key default samplen 3 spacing 1.1 {} top\nset bmargin\n",
+                                             panel.legend_left ? "left" : "right");
     std::string separator = "plot ";
     for (const Series& series : panel.series) {
       text += fmt::format("{}data using {}:{} {} title '{}'", separator, column, column + 1, style(series),
@@ -140,7 +142,7 @@ std::string to_gnuplot(const Figure& figure) {
                                  figure.id, figure.id, figure.id, figure.id);
   text += fmt::format("data = '{}.csv'\n", figure.id);
   text += "set datafile separator ','\nset datafile columnheaders\nset encoding utf8\n";
-  text += "set key samplen 3 spacing 1.1\nset border lw 0.8\nset tics nomirror\nset bars 0\n";
+  text += "set border lw 0.8\nset tics nomirror\nset bars 0\n";
   for (const bool vector : {true, false}) {
     text +=
         vector ? fmt::format("\nset terminal svg size {:g},380 font 'DejaVu Sans,13' background 'white'\n",

@@ -13,6 +13,7 @@
 #include "indet/ensemble/comparison.h"
 #include "indet/ensemble/figures.h"
 #include "indet/ensemble/gnuplot.h"
+#include "indet/ensemble/uniform_figures.h"
 #include "indet/io/whole_file.h"
 
 namespace indet {
@@ -24,6 +25,7 @@ h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.5rem}
 table{border-collapse:collapse;margin:1rem 0;font-size:.92rem}
 th,td{text-align:left;padding:.25rem .8rem .25rem 0;border-bottom:1px solid #ccc;vertical-align:top}
 figure{margin:1rem 0;break-inside:avoid}figure svg{max-width:100%;height:auto}
+.numbers td:not(:first-child),.numbers th{white-space:nowrap}
 .row{display:flex;gap:.5rem;flex-wrap:wrap}.row figure{flex:1 1 15rem}
 figcaption,.note{font-size:.92rem;color:#333}.differs{color:#a33000;font-weight:bold}.agrees{color:#00543c}
 @media print{body{margin:0;max-width:none;font-size:10pt}}
@@ -140,13 +142,45 @@ std::string failures(const EnsembleContents& contents) {
   return text + "</ul>\n";
 }
 
+std::string table_of(const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "<table class=\"numbers\">\n";
+  for (const auto& row : rows) {
+    const char* cell = &row == rows.data() ? "th" : "td";
+    text += "<tr>";
+    for (const std::string& value : row) text += fmt::format("<{0}>{1}</{0}>", cell, escaped(value));
+    text += "</tr>\n";
+  }
+  return text + "</table>\n";
+}
+
+std::string csv_of(const std::vector<std::vector<std::string>>& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    for (const std::string& value : row) text += (&value == row.data() ? "" : ",") + quoted(value);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string section_of_uniform_sampling(const EnsembleTables& tables, const std::filesystem::path& folder) {
+  const std::vector<std::vector<std::string>> summary = uniform_summary(tables);
+  if (summary.empty()) return "";
+  write_whole_file(folder / "uniform.csv", csv_of(summary));
+  return "<h2>Are all contact states equally likely?</h2>\n"
+         "<p>Perturb-and-resolve [38] and the simulated states beside a uniform sample of the same "
+         "polytopes. "
+         "± is one standard error over the packings. The figures are at the end.</p>\n" +
+         table_of(summary) + "<p class=\"note\">File: figures/uniform.csv</p>\n";
+}
+
 std::string section_of(const Figure& figure, const std::filesystem::path& folder) {
+  const std::string claim =
+      figure.claim.empty() ? "" : fmt::format("<b>Paper:</b> {}<br>", escaped(figure.claim));
   return fmt::format(
-      "<h2>{}</h2>\n<figure id=\"{}\">\n{}\n<figcaption>{}</figcaption></figure>\n<p><b>Paper:</b> "
-      "{}<br><b>Here:</b> "
+      "<h2>{}</h2>\n<figure id=\"{}\">\n{}\n<figcaption>{}</figcaption></figure>\n<p>{}<b>Here:</b> "
       "{}</p>\n<p class=\"note\">Files: figures/{}.svg, .pdf, .csv, .gp</p>\n",
       escaped(figure.title), figure.id, inline_svg(folder / (figure.id + ".svg"), figure.id),
-      escaped(figure.caption), escaped(figure.claim), escaped(figure.finding), figure.id);
+      escaped(figure.caption), claim, escaped(figure.finding), figure.id);
 }
 
 }  // namespace
@@ -182,6 +216,7 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
                                        "paper gives no error, within 10 %."
                                      : other_case + " Hence there is no verdict.");
   html += "<h2>Beyond the paper</h2>\n" + table_of(beyond_the_paper(contents.tables), false);
+  html += section_of_uniform_sampling(contents.tables, figures_folder);
   if (!pictures.empty()) {
     html += "<h2>Fig. 5: three contact states</h2>\n<div class=\"row\">\n";
     for (const Picture& picture : pictures) {

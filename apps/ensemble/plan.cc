@@ -39,6 +39,20 @@ std::string analysis_toml(const EnsembleConfig& config, std::int64_t seed) {
   return text;
 }
 
+/// Added for the packings that are sampled uniformly: the hashes of the others do not know of it.
+std::string uniform_toml(const UniformOptions& u, std::int64_t seed) {
+  std::string text = fmt::format("[uniform]\neffective = {}\nlargest_rhat = {}\nchains = {}\nlimit = {}\n",
+                                 u.effective, u.largest_rhat, u.chains, u.limit);
+  if (seed >= 0) text += fmt::format("seed = {}\n", seed);
+  return text;
+}
+
+void add_uniform_sampling(const EnsembleConfig& config, double disks, Unit& unit) {
+  unit.uniform = true;
+  unit.config += uniform_toml(config.uniform, std::max<std::int64_t>(unit.seed, 0));
+  unit.cost += 0.6 * std::pow(disks / 95, 3);
+}
+
 /// Seconds on one core, measured with 95 disks (docs/simulation.md, docs/ensemble.md); the exponents fit runs
 /// with 95 to 400. It orders the units and feeds the estimate of the remaining time.
 double cost_of(const EnsembleConfig& config, const std::string& protocol, double disks) {
@@ -53,7 +67,9 @@ double cost_of(const EnsembleConfig& config, const std::string& protocol, double
   return analysis * std::pow(size, 3) + rest * std::pow(size, 1.5);
 }
 
-Unit simulated_unit(const EnsembleConfig& config, const std::string& protocol, std::int64_t seed) {
+/// `number` of its protocol, from 0.
+Unit simulated_unit(const EnsembleConfig& config, const std::string& protocol, std::int64_t number) {
+  const std::int64_t seed = config.first_seed + number;
   Unit unit;
   unit.name = fmt::format("{}-{:04}", protocol, seed);
   unit.protocol = protocol;
@@ -64,20 +80,23 @@ Unit simulated_unit(const EnsembleConfig& config, const std::string& protocol, s
   unit.config += sim::to_toml(scene) + to_toml(method_of(config, protocol));
   if (protocol.back() == '2') unit.config += "# start\n" + to_toml(method_of(config, "cd1"));
   unit.config += analysis_toml(config, seed);
+  if (number < config.uniform_seeds) add_uniform_sampling(config, config.scene.disks, unit);
   return unit;
 }
 
-Unit unit_of_file(const EnsembleConfig& config, const std::filesystem::path& path) {
+Unit unit_of_file(const EnsembleConfig& config, const std::filesystem::path& path, std::int64_t number) {
   Unit unit;
   unit.name = path.stem().string();
   unit.protocol = "file";
   unit.source = path;
   const Hdf5File file = open_indet_file(path);
   unit.seed = file.integer_attribute("/parameters", "seed");
-  unit.cost = cost_of(config, "file", static_cast<double>(file.shape("/particles/disks/id", 1)[0]));
+  const auto disks = static_cast<double>(file.shape("/particles/disks/id", 1)[0]);
+  unit.cost = cost_of(config, "file", disks);
   unit.config = fmt::format("version = \"{}\"\nfile = \"{}\"\n", version(),
                             file.sha256({"/contacts", "/parameters", "/particles", "/walls"}));
   unit.config += analysis_toml(config, std::max<std::int64_t>(unit.seed, 0));
+  if (number < config.uniform_seeds) add_uniform_sampling(config, disks, unit);
   return unit;
 }
 
@@ -89,7 +108,10 @@ std::string config_of(const EnsembleConfig& config) {
   if (!config.protocols.empty()) text += sim::to_toml(config.scene.resolved());
   for (const std::string& protocol : config.protocols)
     text += "# " + protocol + "\n" + to_toml(method_of(config, protocol));
-  return text + analysis_toml(config, -1);
+  text += analysis_toml(config, -1);
+  if (config.uniform_seeds > 0)
+    text += uniform_toml(config.uniform, -1) + fmt::format("packings = {}\n", config.uniform_seeds);
+  return text;
 }
 
 }  // namespace
@@ -123,10 +145,11 @@ Plan make_plan(const EnsembleConfig& config) {
     if (const auto defect = config.scene.defect()) throw InputError(*defect);
     for (const std::string& protocol : config.protocols) {
       for (std::int64_t i = 0; i < config.seeds; ++i)
-        plan.units.push_back(simulated_unit(config, protocol, config.first_seed + i));
+        plan.units.push_back(simulated_unit(config, protocol, i));
     }
   }
-  for (const std::filesystem::path& path : config.files) plan.units.push_back(unit_of_file(config, path));
+  for (const std::filesystem::path& path : config.files)
+    plan.units.push_back(unit_of_file(config, path, &path - config.files.data()));
   if (plan.units.empty()) throw InputError("there is nothing to do: no seed and no file");
   std::set<std::string> names;
   for (Unit& unit : plan.units) {

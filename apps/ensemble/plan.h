@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "indet/sampling/uniform_sampling.h"
 #include "indet/sim/perturb_sampling.h"
 #include "indet/sim/scene.h"
 #include "indet/sim/simulate.h"
@@ -20,6 +21,9 @@ struct EnsembleConfig {
   sim::MolecularDynamicsOptions molecular_dynamics = sim::stiff_preset();
   std::vector<std::filesystem::path> files;  ///< Packings that are there already.
   sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
+  /// Packings of each protocol that are sampled uniformly too: those of the first seeds, the first files.
+  std::int64_t uniform_seeds = 60;
+  UniformOptions uniform;     ///< Its seed is that of each packing.
   bool solver_states = true;  ///< Also dR and dT of the vertices that the solver lands on, as in the paper.
 };
 
@@ -30,6 +34,7 @@ struct Unit {
   std::string protocol;  ///< "file" for a packing that was there.
   std::int64_t seed = -1;
   std::filesystem::path source;  ///< Of a packing that was there.
+  bool uniform = false;          ///< Also sampled uniformly.
   double cost = 0;               ///< Estimated seconds on one core.
   std::string config;            ///< Everything that its results depend on, as TOML.
   std::string hash;              ///< SHA-256 of `config`.

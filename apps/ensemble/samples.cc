@@ -103,6 +103,22 @@ GroupedValues Samples::extremal(const std::string& protocol, int objective, bool
   return result;
 }
 
+GroupedValues Samples::sampled(const std::vector<std::string>& protocols, const std::string& quantity,
+                               int sampling) const {
+  GroupedValues result;
+  const FlatTable& table = tables_.sampled;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto row = static_cast<std::size_t>(table.number("run", i));
+    if (table.number("sampling", i) != sampling || table.text("quantity", i) != quantity) continue;
+    if (std::find(protocols.begin(), protocols.end(), tables_.runs.text("protocol", row)) == protocols.end())
+      continue;
+    result.add(table.number("low", i) + table.number("width", i) / 2, group_[row],
+               table.number("contacts", i));
+  }
+  result.groups = groups_;
+  return result;
+}
+
 std::vector<double> Samples::runs(const std::string& protocol, const std::string& column) const {
   std::vector<double> result;
   for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {

@@ -35,6 +35,10 @@ class Samples {
   /// R in the extremal states of one kind of objective, the canonical ones or the vertices that the solver
   /// lands on; bins of 1 mg at their centres.
   GroupedValues extremal(const std::string& protocol, int objective, bool solver) const;
+  /// A quantity of /table/sampled at the centres of its bins, for one sampling: 0 uniform, 1
+  /// perturb-and-resolve. A value counts as often as there are such contacts in a state.
+  GroupedValues sampled(const std::vector<std::string>& protocols, const std::string& quantity,
+                        int sampling) const;
   /// A column of the runs of one protocol; NaN where unknown.
   std::vector<double> runs(const std::string& protocol, const std::string& column) const;
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "indet/base/error.h"
+#include "indet/ensemble/uniform_tables.h"
 #include "indet/ensemble/unit_file.h"
 #include "indet/io/ranges_file.h"
 
@@ -92,6 +93,7 @@ std::vector<Column> run_columns() {
   columns.push_back(real("distance_cd1", "mg", "distance to the cd1 state of the same seed"));
   columns.push_back(real("distance_cd2", "mg", "distance to the cd2 state of the same seed"));
   for (const Taken& t : kTaken) columns.push_back(real(t.column, t.unit, t.long_name));
+  for (Column& column : uniform_run_columns()) columns.push_back(std::move(column));
   return columns;
 }
 
@@ -119,6 +121,7 @@ std::vector<Column> contact_columns() {
   columns.push_back(real("T_star", "1", "place of T in its range"));
   for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
     columns.push_back(integer(name, "1 if only one state attains the value"));
+  for (Column& column : uniform_contact_columns()) columns.push_back(std::move(column));
   return columns;
 }
 
@@ -167,11 +170,13 @@ class Collector {
     const std::size_t run = tables_.runs.rows();
     tables_.runs.add_rows(1);
     add_run(unit, file, content, run);
+    const std::size_t first_contact = tables_.contacts.rows();
     add_contacts(file, content, run);
+    add_uniform_sampling(file, tables_, run, first_contact);
     add_extremal(file, "/ensemble/extremal_R", 0, run);
     add_extremal(file, "/ensemble/solver_extremal_R", 1, run);
     tables_.timings.add_rows(1);
-    for (const char* stage : {"simulate", "analyze", "analyze_solver_states", "sample"})
+    for (const char* stage : {"simulate", "analyze", "analyze_solver_states", "sample", "sample_uniform"})
       tables_.timings.set(stage, run, attribute_or_nan(file, "/provenance/timings", stage));
     add_distances(unit, content, run);
   }
@@ -365,10 +370,12 @@ EnsembleTables::EnsembleTables()
                 integer("choice", "0: canonical states, 1: vertices that the solver lands on"),
                 integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),
                 integer("bin", "R in [bin, bin+1) mg"), integer("count", "contacts with such a force")}),
+      sampled(sampled_columns()),
       timings({real("simulate", "s", "simulation"),
                real("analyze", "s", "ranges and canonical extremal states"),
                real("analyze_solver_states", "s", "ranges again, with the solver's own extremal states"),
-               real("sample", "s", "perturb and resolve")}) {}
+               real("sample", "s", "perturb and resolve"),
+               real("sample_uniform", "s", "uniform sampling, and its comparison")}) {}
 
 Collection collect_units(const Plan& plan, const std::vector<std::filesystem::path>& folders,
                          const ProgressCallback& progress) {

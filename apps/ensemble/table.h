@@ -58,6 +58,7 @@ struct EnsembleTables {
   FlatTable runs;      ///< One row a packing, in the order of the plan.
   FlatTable contacts;  ///< One row a contact; `run` is the row of its packing.
   FlatTable extremal;  ///< Histogram of R in the extremal states: run, choice, objective, bin, count.
+  FlatTable sampled;   ///< Distributions of R under both samplings, one row a bin (uniform_tables.h).
   FlatTable timings;   ///< Seconds by stage, one row a packing.
 
   EnsembleTables();

@@ -67,15 +67,38 @@ void analyze_unit(const EnsembleConfig& config, const ProgressCallback& progress
   result.seconds["analyze_solver_states"] = watch.seconds();
 }
 
-void sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
-                 UnitResult& result) {
-  if (config.sampling.samples <= 0 || !result.packing.has_simulated_forces()) return;
-  if (result.packing.contacts.empty()) return;
+/// The accepted solutions in the order in which they were found: 2M × S, in mg.
+Eigen::MatrixXd chain_of(const sim::PerturbEnsemble& ensemble, const Packing& packing) {
+  Eigen::MatrixXd chain(2 * packing.contact_count(), ensemble.accepted);
+  Eigen::Index column = 0;
+  for (const sim::PerturbSample& sample : ensemble.samples) {
+    if (sample.accepted) chain.col(column++) = sample.forces / packing.force_unit();
+  }
+  return chain;
+}
+
+/// Perturb-and-resolve; returns its states.
+Eigen::MatrixXd sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
+                            UnitResult& result) {
+  if (config.sampling.samples <= 0 || !result.packing.has_simulated_forces()) return {};
+  if (result.packing.contacts.empty()) return {};
   const Stopwatch watch;
   sim::PerturbOptions options = config.sampling;
   options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
-  result.sampling = record_of(sim::perturb_and_resolve(result.packing, options, progress), options);
+  const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(result.packing, options, progress);
+  result.sampling = record_of(ensemble, options);
   result.seconds["sample"] = watch.seconds();
+  return chain_of(ensemble, result.packing);
+}
+
+void sample_unit_uniformly(const EnsembleConfig& config, const Unit& unit, const Eigen::MatrixXd& chain,
+                           const ProgressCallback& progress, UnitResult& result) {
+  const Stopwatch watch;
+  UniformOptions options = config.uniform;
+  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
+  options.progress = progress;
+  result.uniform = sample_uniformly(result.packing, result.ranges, chain, options);
+  result.seconds["sample_uniform"] = watch.seconds();
 }
 
 }  // namespace
@@ -108,7 +131,8 @@ UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const st
     simulate_unit(config, unit, first, progress, result);
   }
   analyze_unit(config, progress, result);
-  sample_unit(config, unit, progress, result);
+  const Eigen::MatrixXd chain = sample_unit(config, unit, progress, result);
+  if (unit.uniform) sample_unit_uniformly(config, unit, chain, progress, result);
   return result;
 }
 

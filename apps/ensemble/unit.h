@@ -8,6 +8,7 @@
 
 #include "indet/base/progress.h"
 #include "indet/ensemble/plan.h"
+#include "indet/ensemble/uniform_step.h"
 #include "indet/io/sampling_file.h"
 #include "indet/io/simulation_file.h"
 #include "indet/range/force_ranges.h"
@@ -32,6 +33,7 @@ struct UnitResult {
   ExtremalForces extremal;                 ///< Of the canonical states.
   ExtremalForces solver_extremal;          ///< Of the vertices that the solver lands on; or empty.
   std::optional<SamplingRecord> sampling;
+  std::optional<UniformResult> uniform;
   std::map<std::string, double> seconds;
 };
 

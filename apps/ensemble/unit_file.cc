@@ -60,6 +60,7 @@ void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitR
   if (result.simulation) write_simulation_part(file, *result.simulation);
   write_ranges_part(file, result.ranges);
   if (result.sampling) write_sampling_part(file, *result.sampling);
+  if (result.uniform) write_uniform_part(file, *result.uniform);
   write_ensemble_part(file, unit, result);
   Provenance all = provenance;
   all.seconds = result.ranges.seconds;

@@ -7,7 +7,7 @@
 
 namespace indet {
 
-/// The file of one unit is a file of `indet analyze` with /simulation and /sampling, and
+/// The file of one unit is a file of `indet analyze` with /simulation, /sampling, /uniform, /bias, and
 ///
 ///     /ensemble  @unit @hash @config; solver_d_R, solver_d_T f8[M]; extremal_R, solver_extremal_R i4[4, B]
 ///

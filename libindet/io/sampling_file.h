@@ -18,6 +18,7 @@ struct ComponentRecord {
   Eigen::MatrixXd quantiles;         ///< 2M × Q, in the scene's units
   Eigen::VectorXd rhat, bulk, tail;  ///< 2M; NaN where a component is determined
   Eigen::MatrixXd states;            ///< 2M × K: some states, in the scene's units; K may be 0
+  Eigen::MatrixXd covariance;        ///< 2M × 2M, in squares of the scene's units; may be empty
 };
 
 /// /sampling: the centre of an ensemble of contact states (R_1, T_1, …), in the scene's units, and numbers
@@ -33,8 +34,9 @@ struct SamplingRecord {
 void write_sampling(const std::filesystem::path& path, const Packing& packing, const SamplingRecord& record,
                     const Provenance& provenance);
 
-/// /sampling alone, for the writers of files that hold more.
-void write_sampling_part(Hdf5File& file, const SamplingRecord& record);
+/// The group alone, for the writers of files that hold more.
+void write_sampling_part(Hdf5File& file, const SamplingRecord& record,
+                         const std::string& group = "/sampling");
 
 /// Throws InputError if the file has no /sampling.
 SamplingRecord read_sampling(const std::filesystem::path& path);

@@ -67,14 +67,18 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
   const Values own = values_of(packing, sample.center, F, ranges);
   Placement place;
   place.most_sliding = 0;
+  place.sliding = count_coulomb(packing, state, tolerance::kSliding).sliding;
+  double below = 0;  // of the samples, those with fewer sliding contacts, and half of those with as many
   std::vector<Values> samples;
   samples.reserve(static_cast<std::size_t>(sample.count()));
   for (Eigen::Index i = 0; i < sample.z.cols(); ++i) {
     const Eigen::VectorXd drawn = body.origin + body.frame * sample.z.col(i);
     samples.push_back(values_of(packing, sample.center, drawn, ranges));
-    place.most_sliding =
-        std::max(place.most_sliding, count_coulomb(packing, drawn * unit, tolerance::kSliding).sliding);
+    const int sliding = count_coulomb(packing, drawn * unit, tolerance::kSliding).sliding;
+    place.most_sliding = std::max(place.most_sliding, sliding);
+    below += sliding < place.sliding ? 1 : sliding == place.sliding ? 0.5 : 0;
   }
+  place.sliding_percentile = 100 * below / static_cast<double>(samples.size());
   place.distance = own.distance;
   place.distance_percentile = percentile(samples, &Values::distance, own.distance);
   place.norm_percentile = percentile(samples, &Values::norm, own.norm);
@@ -82,8 +86,8 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
   place.mobilisation_percentile = percentile(samples, &Values::mobilisation, own.mobilisation);
   place.mean_R_star = own.R_star;
   place.R_star_percentile = percentile(samples, &Values::R_star, own.R_star);
-  place.sliding = count_coulomb(packing, state, tolerance::kSliding).sliding;
 
+  place.percentile_R = Eigen::VectorXd::Constant(packing.contact_count(), kNaN);
   int inside = 0;
   int counted = 0;
   for (int k = 0; k < body.frame.rows(); k += 2) {
@@ -91,6 +95,8 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
     Eigen::VectorXd values = component_of(body, sample, k);
     std::sort(values.begin(), values.end());
     const std::span<const double> sorted(values.data(), static_cast<std::size_t>(values.size()));
+    const auto smaller = std::lower_bound(sorted.begin(), sorted.end(), F[k]) - sorted.begin();
+    place.percentile_R[k / 2] = 100 * static_cast<double>(smaller) / static_cast<double>(sorted.size());
     inside += sorted_quantile(sorted, 0.05) <= F[k] && F[k] <= sorted_quantile(sorted, 0.95) ? 1 : 0;
     ++counted;
   }

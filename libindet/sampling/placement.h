@@ -13,7 +13,8 @@ namespace indet {
 /// likely to come about, each percentile would be uniform in [0, 100] over many packings, and nine tenths of
 /// the contacts would have forces in the central nine tenths of their distributions.
 ///
-/// A percentile is the percentage of samples whose value is smaller. NaN where a force is not known.
+/// A percentile is the percentage of samples whose value is smaller; where many samples have the same value
+/// as the state (numbers of sliding contacts), half of those count too. NaN where a force is not known.
 struct Placement {
   double distance = -1;                 ///< ‖F − F°‖ of the state, force units
   double distance_percentile = -1;      ///< of that distance among those of the samples
@@ -23,8 +24,10 @@ struct Placement {
   double central_fraction_R = -1;       ///< contacts whose R lies between the 5 % and the 95 % quantile
   int sliding = -1;                     ///< M_s of the state
   int most_sliding = -1;                ///< the largest M_s of a sample; ε as in the paper
+  double sliding_percentile = -1;       ///< of M_s
   double mean_R_star = -1;              ///< of the state [39]; NaN without ranges
   double R_star_percentile = -1;        ///< of that mean; NaN without ranges
+  Eigen::VectorXd percentile_R;         ///< M: of each R; NaN where it is determined
 };
 
 /// `state`: (R_1, T_1, …) in the packing's units. `ranges`: may be null.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "indet/base/error.h"
@@ -17,20 +18,24 @@
 namespace indet {
 namespace {
 
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
 /// Finds the point of a body that lies farthest along a direction, block by block.
 class Support {
  public:
-  Support(const ConvexBody& body, const Eigen::VectorXd& interior) : body_(body), interior_(interior) {
+  Support(const ConvexBody& body, const Eigen::VectorXd& interior, const LpOptions& options)
+      : body_(body), interior_(interior) {
     for (const BodyBlock& block : body.blocks) {
       FeasibleSet& set = sets_.emplace_back();
       set.slope = body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
       set.offset = body.set.offset.segment(block.first_row, block.rows);
     }
     for (const FeasibleSet& set : sets_)
-      solvers_.push_back(std::make_unique<LpSolver>(set, Formulation::kDual));
+      solvers_.push_back(std::make_unique<LpSolver>(set, Formulation::kDual, options));
   }
 
-  Eigen::VectorXd farthest(const Eigen::VectorXd& direction) {
+  /// None if a linear program could not be solved.
+  std::optional<Eigen::VectorXd> farthest(const Eigen::VectorXd& direction) {
     Eigen::VectorXd z(body_.dim());
     for (std::size_t b = 0; b < sets_.size(); ++b) {
       const BodyBlock& block = body_.blocks[b];
@@ -40,8 +45,7 @@ class Support {
       const Basis start =
           walk_to_vertex(sets_[b], interior_.segment(block.first_column, block.columns), objective.along_z);
       const LpAnswer answer = solvers_[b]->maximise(objective, start);
-      if (answer.status != LpStatus::kOptimal)
-        throw LibraryError("a linear program for the width of the polytope could not be solved");
+      if (answer.status != LpStatus::kOptimal) return std::nullopt;
       z.segment(block.first_column, block.columns) = compute_vertex(sets_[b], answer.basis).z;
     }
     return z;
@@ -88,8 +92,8 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
   shape.inscribed_radius = sample.ball.radius;
   const Eigen::MatrixXd centred = sample.z.colwise() - sample.z.rowwise().mean();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(centred * centred.transpose());
-  Support support(body, sample.ball.center);
-  Eigen::MatrixXd points(n, 2 * (n + options.directions));
+  Support support(body, sample.ball.center, options.lp);
+  std::vector<Eigen::VectorXd> points;
   double squares = 0;
   std::vector<double> widths;
   Random random = random_of(options.seed, ChainKind::kWidth, 0);
@@ -101,9 +105,13 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
       for (double& component : direction) component = random.normal();
       direction.normalize();
     }
-    points.col(2 * i) = support.farthest(direction);
-    points.col(2 * i + 1) = support.farthest(-direction);
-    const double width = direction.dot(points.col(2 * i) - points.col(2 * i + 1));
+    double width = 0;
+    for (const double sign : {1.0, -1.0}) {
+      const std::optional<Eigen::VectorXd> point = support.farthest(sign * direction);
+      width += point ? sign * direction.dot(*point) : kNaN;
+      if (point) points.push_back(*point);
+      if (!point) ++shape.unsolved;
+    }
     if (i < n) {
       squares += width * width;
     } else {
@@ -112,12 +120,16 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
     if (options.progress && !options.progress({"widths", i + 1, n + options.directions, {}}))
       throw Interrupted();
   }
-  const Estimate mean = mean_of(widths);
+  // The mean over the widths that were found would be one over directions that are not equally likely.
+  const bool all = std::none_of(widths.begin(), widths.end(), [](double width) { return std::isnan(width); });
+  const Estimate mean = all ? mean_of(widths) : Estimate{};
   shape.mean_width = mean.value;
   shape.mean_width_error = mean.error;
-  shape.diameter_lower = large_distance(points);
+  Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = points[i];
+  shape.diameter_lower = large_distance(columns);
   shape.diameter_upper = std::sqrt(squares);
-  shape.diameter_by_ranges = std::numeric_limits<double>::quiet_NaN();
+  shape.diameter_by_ranges = kNaN;
   if (ranges != nullptr) {
     if (ranges->states.rows() > 0) {
       const Eigen::MatrixXd states = ranges->states.transpose() / ranges->force_unit;

@@ -197,10 +197,10 @@ class Sampler {
     const double n = result_.count();
     const Eigen::VectorXd mean = result_.z.rowwise().mean();
     const Eigen::MatrixXd centred = result_.z.colwise() - mean;
-    const Eigen::MatrixXd covariance = centred * centred.transpose() / n;
+    result_.covariance = centred * centred.transpose() / n;
     result_.center = body_.origin + body_.frame * mean;
     result_.deviation =
-        (body_.frame * covariance).cwiseProduct(body_.frame).rowwise().sum().cwiseMax(0).cwiseSqrt();
+        (body_.frame * result_.covariance).cwiseProduct(body_.frame).rowwise().sum().cwiseMax(0).cwiseSqrt();
     const Eigen::VectorXd squares = centred.colwise().squaredNorm();
     const Eigen::VectorXd distances = squares.cwiseSqrt();
     result_.r = std::sqrt(squares.mean());

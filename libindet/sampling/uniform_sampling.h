@@ -47,11 +47,12 @@ struct UniformSample {
   double bulk = 0, tail = 0;            ///< the smallest
   int slowest = -1;                     ///< component of the smallest effective size; its number 2M: ‖F‖
 
-  Eigen::VectorXd center;     ///< F°, the mean
-  Eigen::VectorXd deviation;  ///< standard deviation of each component
-  double r = -1;              ///< (mean ‖F − F°‖²)^½ [38]
-  double r_error = -1;        ///< its standard error, from the effective size of ‖F − F°‖²
-  double spread = -1;         ///< standard deviation of ‖F − F°‖
+  Eigen::VectorXd center;      ///< F°, the mean
+  Eigen::VectorXd deviation;   ///< standard deviation of each component
+  Eigen::MatrixXd covariance;  ///< n × n, of z; that of F is frame · covariance · frameᵀ
+  double r = -1;               ///< (mean ‖F − F°‖²)^½ [38]
+  double r_error = -1;         ///< its standard error, from the effective size of ‖F − F°‖²
+  double spread = -1;          ///< standard deviation of ‖F − F°‖
   double mean_norm = -1, norm_deviation = -1;
   double seconds = 0;       ///< elapsed, warm-up included
   double core_seconds = 0;  ///< processor time of the whole process meanwhile

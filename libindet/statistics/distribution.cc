@@ -193,6 +193,15 @@ Estimate fraction_between(const GroupedValues& data, double low, double high,
                options);
 }
 
+Estimate grouped_mean(const GroupedValues& data, const BootstrapOptions& options) {
+  return ratio(sums_by_group(data,
+                             [](double x, double& term) {
+                               term = x;
+                               return true;
+                             }),
+               options);
+}
+
 double kolmogorov_distance(const GroupedValues& a, const GroupedValues& b) {
   std::vector<std::pair<double, double>> steps;  // value, change of P_a − P_b
   const double total_a = a.total();

@@ -60,6 +60,9 @@ double quantile(const GroupedValues& data, double p);
 Estimate fraction_between(const GroupedValues& data, double low, double high,
                           const BootstrapOptions& options = {});
 
+/// Mean of all finite values; its error is a bootstrap over groups.
+Estimate grouped_mean(const GroupedValues& data, const BootstrapOptions& options = {});
+
 /// The distance of Kolmogorov and Smirnov, sup |P_a(x) − P_b(x)| of the cumulative distributions.
 double kolmogorov_distance(const GroupedValues& a, const GroupedValues& b);
 

@@ -41,7 +41,8 @@ class Uniform(program.ProgramTest):
         delta_T = delta_R / math.tan(phi)
         length = math.sqrt(2) * math.hypot(delta_R, delta_T)
         R_min = 0.5 / (math.cos(phi) + mu * math.sin(phi))
-        shown = self.sample(self.packing(program.groove(phi, mu)), "--states", "300", "--shape", "-o", "s.h5")
+        shown = self.sample(self.packing(program.groove(phi, mu)), "--states", "300", "--covariance", "--shape",
+                            "-o", "s.h5")
         self.assertEqual(shown["stopped_by"], "convergence")
         self.assertAlmostEqual(shown["r"], length / math.sqrt(12), delta=4 * shown["r_error"])
         for name in ("diameter_lower", "diameter_upper", "mean_width"):
@@ -59,7 +60,7 @@ class Uniform(program.ProgramTest):
                 self.assertTrue(dataset.attrs["unit"])
                 self.assertGreater(len(dataset.attrs["long_name"]), 3)
             shapes = {name: dataset.shape for name, dataset in group.items()}
-            self.assertEqual(shapes, {"center": (4,), "deviation": (4,), "quantile_levels": (5,), "quantiles": (4, 5),
+            self.assertEqual(shapes, {"center": (4,), "covariance": (4, 4), "deviation": (4,), "quantile_levels": (5,), "quantiles": (4, 5),
                                       "rhat": (4,), "bulk_ess": (4,), "tail_ess": (4,), "states": (300, 4)})
             R, T = group["states"][:, 0], group["states"][:, 1]
             np.testing.assert_allclose(2 * R * math.cos(phi) - 2 * T * math.sin(phi), 1, atol=1e-12)
@@ -68,7 +69,26 @@ class Uniform(program.ProgramTest):
             error = 4 * 0.5 / math.sqrt(group.attrs["ess"])
             levels = group["quantile_levels"][()]
             np.testing.assert_allclose((group["quantiles"][0] - R_min) / delta_R, levels, atol=error)
+            covariance = group["covariance"][()]
+            np.testing.assert_allclose(covariance, covariance.T)
+            np.testing.assert_allclose(np.sqrt(np.diag(covariance)), group["deviation"], rtol=1e-10)
+            # On the segment, all forces are linear in one number.
+            np.testing.assert_allclose(np.linalg.eigvalsh(covariance)[:3], 0, atol=1e-12)
+            np.testing.assert_allclose(covariance[0, 1] * delta_R, covariance[0, 0] * delta_T, rtol=1e-9)
             self.assertAlmostEqual(group["deviation"][0], delta_R / math.sqrt(12), delta=0.1 * delta_R)
+
+    def test_covariances_are_written_on_request(self):
+        packing = self.packing(program.pyramid(0.9))
+        self.run_indet("sample", packing, "--method", "uniform", "--effective", "4000", "--states", "1000000",
+                       "--covariance", "-o", "s.h5")
+        self.run_indet("sample", packing, "--method", "uniform", "-o", "without.h5")
+        with h5py.File(self.folder / "s.h5") as file, h5py.File(self.folder / "without.h5") as without:
+            group = file["sampling"]
+            self.assertEqual(group["covariance"].attrs["unit"], "force2")
+            states = group["states"][()]
+            expected = np.cov(states, rowvar=False, bias=True)
+            np.testing.assert_allclose(group["covariance"][()], expected, atol=1e-10 * np.abs(expected).max())
+            self.assertNotIn("covariance", without["sampling"])
 
     def test_the_text_says_what_was_found(self):
         text = self.run_indet("sample", self.packing(program.groove()), "--method", "uniform", "-o", "s.h5").stdout
@@ -135,6 +155,7 @@ class Uniform(program.ProgramTest):
                                           ("perturb", ["--effective", "500"], "--method uniform"),
                                           ("perturb", ["--limit", "5000"], "--method uniform"),
                                           ("perturb", ["--states", "1"], "--method uniform"),
+                                          ("perturb", ["--covariance"], "--method uniform"),
                                           ("perturb", ["--shape"], "--method uniform"),
                                           ("perturb", ["--volume-sweeps", "99"], "--method uniform")]:
             with self.subTest(arguments):

@@ -121,6 +121,65 @@ class EnsembleTest(program.ProgramTest):
         with h5py.File(self.folder / "some/ensemble.h5") as file:
             self.assertEqual(len(file["ensemble/missing"]), 6)
 
+    def test_uniform_sampling_of_a_unit_is_that_of_the_command(self):
+        self.run_indet("ensemble", "--seeds", "1", "--disks", "14", "--samples", "60", "-o", "e")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        sampled = table(self.folder / "e/ensemble.h5", "sampled")
+        rows = np.flatnonzero(runs["uniform"] == b"converged")
+        self.assertGreater(len(rows), 0)
+        for row in rows:
+            name = f"e/units/{runs['unit'][row].decode()}.h5"
+            self.run_indet("sample", name, "--method", "uniform", "--states", "1000000", "-o", "u.h5")
+            self.run_indet("sample", name, "--samples", "60", "-o", "p.h5")
+            mine = contacts["run"] == row
+            mg = runs["mg"][row]
+            with h5py.File(self.folder / name) as unit, h5py.File(self.folder / "u.h5") as u, \
+                    h5py.File(self.folder / "p.h5") as p:
+                for key, value in u["sampling"].attrs.items():
+                    if key not in ("method", "worst_residual"):
+                        self.assertEqual(unit["uniform"].attrs[key], value, key)
+                for key in ("center", "deviation", "quantiles", "rhat", "bulk_ess"):
+                    np.testing.assert_array_equal(unit[f"uniform/{key}"][()], u[f"sampling/{key}"][()])
+                self.assertEqual(runs["uniform_r"][row], u["sampling"].attrs["r"])
+                R = u["sampling/states"][:, ::2] / mg
+                np.testing.assert_allclose(contacts["uniform_R"][mine], R.mean(0), atol=1e-9)
+                simulated = unit["contacts/R"][()] / mg
+                moves = R.std(0) > 1e-6
+                np.testing.assert_allclose(contacts["uniform_R_percentile"][mine][moves],
+                                           100 * (R < simulated).mean(0)[moves], atol=0.5)
+                bins = (sampled["run"] == row) & (sampled["sampling"] == 0) & (sampled["quantity"] == b"R")
+                expected, _ = np.histogram(R, np.append(sampled["low"][bins], sampled["low"][bins][-1] + 1))
+                if np.all(np.diff(sampled["low"][bins]) == 1):
+                    np.testing.assert_allclose(sampled["contacts"][bins], expected / len(R), atol=2 / len(R))
+                self.assertAlmostEqual(sampled["contacts"][bins].sum(), len(simulated))
+                # The distance of the centres, less what noise makes of it.
+                shift = np.linalg.norm(p["sampling/center"][()] - u["sampling/center"][()]) / mg
+                bias = unit["bias"].attrs
+                self.assertAlmostEqual(max(0, shift**2 - bias["center_noise"]**2) ** 0.5, bias["center_shift"], places=7)
+                self.assertAlmostEqual(p["sampling"].attrs["r"], bias["r"], places=9)
+                self.assertAlmostEqual(bias["ratio"], bias["r"] / u["sampling"].attrs["r"], places=12)
+
+    def test_uniform_seeds_choose_packings_and_leave_the_others_as_they_are(self):
+        self.ensemble("e", "--uniform-seeds", "1")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        self.assertTrue(((runs["uniform"] != b"") == (runs["seed"] == 0)).all())
+        self.assertTrue(np.isnan(runs["uniform_r"][runs["seed"] == 1]).all())
+        more = json.loads(self.ensemble("e", "--uniform-seeds", "all", "--json").stdout)
+        self.assertEqual((more["done"], more["skipped"]), (4, 4))
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        self.assertTrue((runs["uniform"] != b"").all())
+        for row in np.flatnonzero(runs["status"] == b"unbounded"):
+            self.assertEqual(runs["uniform"][row], b"unbounded")
+        for wrong in ("-1", "some", "3x"):
+            self.assertIn("expected a number, or all", self.ensemble("f", "--uniform-seeds", wrong, status=2).stderr)
+
+    def test_threads_change_nothing(self):
+        for threads in ("1", "3"):
+            self.run_indet("ensemble", *TINY[:-1], "40", "-o", threads, "--threads", threads)
+        self.assertEqual(content(self.folder / "1/ensemble.h5"), content(self.folder / "3/ensemble.h5"))
+        self.assertGreater(len(table(self.folder / "1/ensemble.h5", "sampled")["run"]), 0)
+
     def test_packings_from_elsewhere(self):
         self.packing(program.groove(), "one")
         self.packing(program.groove(mu=0.5), "two")

@@ -9,12 +9,17 @@ import re
 import subprocess
 import sys
 
+import h5py
+import numpy as np
+
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import program  # noqa: E402
 
 CHROMIUM = ""
-TINY = ["--seeds", "2", "--disks", "12", "--samples", "5"]
-FIGURES = ["fig03", "fig06a", "fig06b", "fig07", "fig08", "fig08-solver", "fig09", "fig10", "fig11", "fig12", "fig12-solver", "fig13"]
+# 40 samples, because fewer are not compared with the uniform distribution.
+TINY = ["--seeds", "2", "--disks", "12", "--samples", "40"]
+FIGURES = ["fig03", "fig06a", "fig06b", "fig07", "fig08", "fig08-solver", "fig09", "fig10", "fig11", "fig12", "fig12-solver", "fig13",
+           "uniform-r", "uniform-forces", "uniform-places", "uniform-tests", "uniform-states", "uniform-friction"]
 PROBE = """<script>addEventListener("load", () => {
   const seen = [...document.querySelectorAll("figure svg")].map(svg => {
     const box = svg.getBoundingClientRect();
@@ -72,6 +77,37 @@ class ReportTest(program.ProgramTest):
         text = (self.folder / "e/report.html").read_text()
         self.assertIn("for N = 95 and μ = 0.3; here N = 12 and μ = 0.3. Hence there is no verdict.", text)
         self.assertNotIn('class="agrees"', text)
+
+    def test_uniform_sampling_is_there_as_a_table_with_the_numbers_of_the_ensemble(self):
+        folder = self.make()
+        with open(folder / "figures/uniform.csv", newline="") as file:
+            header, *rows = csv.reader(file)
+        self.assertEqual(header, ["", "CD-1", "CD-2", "MD-1", "MD-2", "if equal"])
+        shown = {name: values for name, *values in rows}
+        self.assertEqual(shown["the same in the paper (mg)"], ["33 ± 1.4", "34 ± 1.3", "41 ± 1.7", "40 ± 1.5", ""])
+        with h5py.File(folder / "ensemble.h5") as file:
+            runs = {name: column[()] for name, column in file["table/runs"].items()}
+        for i, protocol in enumerate((b"cd1", b"cd2", b"md1", b"md2")):
+            mine = runs["protocol"] == protocol
+            done = mine & (runs["uniform"] == b"converged")
+            self.assertEqual(shown["packings sampled uniformly, converged"][i], f"{done.sum()} of {mine.sum()}")
+            for name, column, digits in (("r of the uniform distribution (mg)", "uniform_r", 1),
+                                         ("ratio of both", "bias_ratio", 2)):
+                values = runs[column][mine]
+                values = values[~np.isnan(values)]
+                mean, *error = shown[name][i].split(" ± ")
+                self.assertEqual(mean, f"{values.mean():.{digits}f}")
+                if len(values) > 1:
+                    self.assertEqual(error, [f"{values.std(ddof=1) / len(values) ** 0.5:.{digits}f}"])
+        text = (folder / "report.html").read_text()
+        self.assertIn("Are all contact states equally likely?", text)
+        self.assertIn("<td>the same in the paper (mg)</td><td>33 ± 1.4</td>", text)
+
+    def test_without_uniform_sampling_nothing_is_said_about_it(self):
+        self.run_indet("ensemble", *TINY[:-1], "5", "--uniform-seeds", "0", "-o", "e")
+        self.run_indet("report", "e")
+        self.assertNotIn("equally likely", (self.folder / "e/report.html").read_text())
+        self.assertEqual(list((self.folder / "e/figures").glob("uniform*")), [])
 
     def test_two_contacts_follow_the_formulas(self):
         text = (self.make() / "report.html").read_text()

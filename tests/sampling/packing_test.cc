@@ -37,6 +37,19 @@ TEST(Wedge, IsAUniformSegment) {
   EXPECT_NEAR(sample.ball.radius, length / 2, 1e-9);
 }
 
+/// Of the segment, every R and T is linear in one uniform number: all correlations are ±1.
+TEST(Wedge, HasTheCovarianceOfASegment) {
+  const ConvexBody body = make_body(find_force_polytope(zoo::wedge(0.5, 0.3)));
+  const UniformSample sample = draw(body);
+  const Eigen::MatrixXd covariance = body.frame * sample.covariance * body.frame.transpose();
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(std::sqrt(covariance(i, i)), sample.deviation[i], 1e-12);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(std::abs(covariance(i, k)), sample.deviation[i] * sample.deviation[k], 1e-12);
+  }
+  EXPECT_LT(covariance(1, 3), 0);
+}
+
 TEST(TwoWedges, AreIndependent) {
   const ConvexBody body = make_body(find_force_polytope(zoo::two_wedges(0.4, 0.3, 0.7, 0.2)));
   ASSERT_EQ(body.blocks.size(), 2U);

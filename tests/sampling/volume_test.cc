@@ -137,6 +137,23 @@ TEST(Shape, OfAPackingIsBoundedFromBothSides) {
   EXPECT_LE(2 * sample.r, shape.diameter_upper * std::sqrt(2));
 }
 
+/// With too few pivots allowed linear programs are not solved, and nothing takes the place of what needs
+/// them.
+TEST(Shape, WithoutTheSolutionsOfLinearProgramsHasNoMeanWidth) {
+  const ConvexBody body = make_body(find_force_polytope(zoo::column(8, 0.3, 0.4)));
+  const UniformSample sample = draw(body);
+  const PolytopeShape whole = measure_shape(body, sample, nullptr);
+  EXPECT_EQ(whole.unsolved, 0);
+  ShapeOptions options;
+  options.lp.iteration_limit = 2;
+  const PolytopeShape part = measure_shape(body, sample, nullptr, options);
+  EXPECT_GT(part.unsolved, 0);
+  EXPECT_TRUE(std::isnan(part.mean_width));
+  EXPECT_TRUE(std::isnan(part.diameter_upper));
+  EXPECT_GT(part.diameter_lower, 0);
+  EXPECT_LE(part.diameter_lower, whole.diameter_lower + 1e-9);
+}
+
 TEST(Placement, OfASampleIsSomewhereInTheMiddleAndOfAnExtremalStateAtTheEnd) {
   const Packing packing = zoo::column(8, 0.3, 0.4);
   const ConvexBody body = make_body(find_force_polytope(packing));
@@ -145,7 +162,7 @@ TEST(Placement, OfASampleIsSomewhereInTheMiddleAndOfAnExtremalStateAtTheEnd) {
   const double unit = packing.force_unit();
 
   // Over many samples the percentiles of a sample are uniform: their mean is 50 ± 29/√n.
-  double norm = 0, distance = 0, inside = 0;
+  double norm = 0, distance = 0, inside = 0, place = 0;
   constexpr int kStates = 50;
   for (int i = 0; i < kStates; ++i) {
     const Eigen::VectorXd F = body.origin + body.frame * sample.z.col(i * sample.count() / kStates);
@@ -154,18 +171,22 @@ TEST(Placement, OfASampleIsSomewhereInTheMiddleAndOfAnExtremalStateAtTheEnd) {
     distance += p.distance_percentile / kStates;
     inside += p.central_fraction_R / kStates;
     EXPECT_EQ(p.sliding, 0);
+    EXPECT_EQ(p.sliding_percentile, 50);  // as all samples
+    place += p.percentile_R[3] / kStates;
     EXPECT_GT(p.mean_R_star, 0);
     EXPECT_LT(p.mean_R_star, 1);
   }
   EXPECT_NEAR(norm, 50, 4 * 29 / std::sqrt(kStates));
   EXPECT_NEAR(distance, 50, 4 * 29 / std::sqrt(kStates));
   EXPECT_NEAR(inside, 0.9, 0.1);
+  EXPECT_NEAR(place, 50, 4 * 29 / std::sqrt(kStates));
 
   const ForcePolytope polytope = find_force_polytope(packing);
   const Eigen::VectorXd lightest = contact_state(polytope, polytope.lightest);
   const Placement end = place_state(packing, body, sample, unit * lightest, &ranges);
   EXPECT_EQ(end.normal_force_percentile, 0);
   EXPECT_GE(end.sliding, 1);
+  EXPECT_EQ(end.sliding_percentile, 100);
 }
 
 }  // namespace

@@ -118,6 +118,25 @@ TEST(Maximum, OfANormalDistributionIsItsMean) {
   EXPECT_LT(maximum.error, 3);
 }
 
+/// 1 twice and 4 once in one group, 2 in the other. Of the four equally likely draws of two groups the means
+/// are 2, 2, 2, 2: no error. With 7 in the other: 2, 7, and twice (6 + 7)/4.
+TEST(GroupedMean, CountsValuesAndResamplesGroups) {
+  GroupedValues data;
+  data.add(1, 0, 2);
+  data.add(4, 0);
+  data.add(2, 1);
+  data.add(std::nan(""), 1);
+  const Estimate equal = grouped_mean(data);
+  EXPECT_DOUBLE_EQ(equal.value, 2);
+  EXPECT_NEAR(equal.error, 0, 1e-12);
+  data.values[2] = 7;
+  const Estimate different = grouped_mean(data, {.resamples = 20000});
+  EXPECT_DOUBLE_EQ(different.value, 13.0 / 4);
+  const double mean = (2 + 7 + 2 * 3.25) / 4;
+  const double variance = (4 + 49 + 2 * 3.25 * 3.25) / 4 - mean * mean;
+  EXPECT_NEAR(different.error, std::sqrt(variance), 0.05);
+}
+
 TEST(Fraction, CountsTheLowerEndOnly) {
   GroupedValues data;
   for (const double value : {0.0, 1.0, 1.0, 2.0}) data.add(value, 0);

@@ -1,0 +1,169 @@
+#include "indet/sampling/bias.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "indet/base/tolerances.h"
+
+namespace indet {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::span<const double> span_of(const Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+double variance_of(const Eigen::VectorXd& values) { return (values.array() - values.mean()).square().mean(); }
+
+/// A quantity over the states of one sample.
+struct Quantity {
+  Eigen::VectorXd values;
+  double effective = 0;
+
+  CorrelatedSample sample() const { return {span_of(values), effective}; }
+  double variance_of_mean() const {
+    const double variance = variance_of(values);
+    return variance > 0 ? variance / effective : 0;
+  }
+};
+
+class Comparison {
+ public:
+  Comparison(const ConvexBody& body, const UniformSample& sample, const Eigen::MatrixXd& chain)
+      : body_(body),
+        sample_(sample),
+        chain_(chain),
+        uniform_assessor_(sample.chains, sample.length),
+        half_assessor_(sample.chains / 2, sample.length),
+        chain_assessor_(1, static_cast<int>(chain.cols())) {}
+
+  SamplingBias run(const ForceRanges* ranges) {
+    const Eigen::Index contacts = body_.frame.rows() / 2;
+    bias_.states = static_cast<int>(chain_.cols());
+    bias_.mean = bias_.deviation = bias_.effective = Eigen::VectorXd::Constant(contacts, kNaN);
+    bias_.tests.resize(static_cast<std::size_t>(contacts));
+    bias_.control.resize(static_cast<std::size_t>(contacts));
+    for (Eigen::Index k = 0; k < body_.frame.rows(); ++k) {
+      const Quantity uniform = of_uniform(component_of(body_, sample_, static_cast<int>(k)));
+      const Quantity chain = of_chain(chain_.row(k).transpose());
+      noise_ += uniform.variance_of_mean() + chain.variance_of_mean();
+      if (k % 2 == 0) compare(k / 2, uniform, chain, ranges);
+    }
+    compare_radii();
+    compare_centres();
+    count();
+    return std::move(bias_);
+  }
+
+ private:
+  Quantity of_uniform(Eigen::VectorXd values) const {
+    const double effective = uniform_assessor_.effective_size(span_of(values));
+    return {std::move(values), effective};
+  }
+  Quantity of_chain(Eigen::VectorXd values) const {
+    const double effective = chain_assessor_.effective_size(span_of(values));
+    return {std::move(values), effective};
+  }
+
+  void compare(Eigen::Index contact, const Quantity& uniform, const Quantity& chain,
+               const ForceRanges* ranges) {
+    const auto i = static_cast<std::size_t>(contact);
+    const double deviation = sample_.deviation[2 * contact];
+    bias_.mean[contact] = chain.values.mean();
+    bias_.deviation[contact] = std::sqrt(variance_of(chain.values));
+    bin(contact, uniform.values, ranges, bias_.uniform);
+    bin(contact, chain.values, ranges, bias_.chain);
+    if (!(deviation > tolerance::kSliding)) return;
+    bias_.effective[contact] = chain.effective;
+    if (chain.effective >= SamplingBias::kFewest)
+      bias_.tests[i] = compare_samples(chain.sample(), uniform.sample());
+    const Eigen::Index half = static_cast<Eigen::Index>(sample_.chains / 2) * sample_.length;
+    const auto part = [&](Eigen::Index first) {
+      const std::span<const double> values =
+          span_of(uniform.values).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(half));
+      return CorrelatedSample{values, half_assessor_.effective_size(values)};
+    };
+    bias_.control[i] = compare_samples(part(0), part(half));
+  }
+
+  void bin(Eigen::Index contact, const Eigen::VectorXd& values, const ForceRanges* ranges,
+           SampledForces& forces) const {
+    const double mean = sample_.center[2 * contact];
+    const double deviation = sample_.deviation[2 * contact];
+    const double range = ranges == nullptr ? kNaN : ranges->delta_R[contact];
+    const double low = ranges == nullptr ? kNaN : ranges->value(contact, kMinR) / ranges->force_unit;
+    for (const double R : values) {
+      forces.force.add(std::max(R, 0.0));  // rounding around 0
+      if (deviation > tolerance::kSliding) forces.standard.add((R - mean) / deviation);
+      if (range > tolerance::kSliding && std::isfinite(range))
+        forces.place.add(std::clamp((R - low) / range, 0.0, 1 - 1e-12));
+    }
+  }
+
+  void compare_radii() {
+    const Eigen::VectorXd center = chain_.rowwise().mean();
+    const Quantity squares = of_chain((chain_.colwise() - center).colwise().squaredNorm().transpose());
+    bias_.r = std::sqrt(squares.values.mean());
+    bias_.r_error = bias_.r > 0 ? std::sqrt(squares.variance_of_mean()) / (2 * bias_.r) : 0;
+    bias_.ratio = bias_.r / sample_.r;
+    bias_.ratio_error = std::hypot(bias_.r_error, bias_.ratio * sample_.r_error) / sample_.r;
+  }
+
+  void compare_centres() {
+    const Eigen::VectorXd difference = chain_.rowwise().mean() - sample_.center;
+    const double distance = difference.norm();
+    bias_.center_noise = std::sqrt(noise_);
+    bias_.center_shift = std::sqrt(std::max(0.0, distance * distance - noise_));
+    bias_.center_shift_error = 0;
+    if (!(distance > 0)) return;
+    const Eigen::VectorXd direction = difference / distance;
+    const Eigen::VectorXd along = body_.frame.transpose() * direction;
+    const Quantity uniform = of_uniform(sample_.z.transpose() * along);
+    const Quantity chain = of_chain(chain_.transpose() * direction);
+    bias_.center_shift_error = std::sqrt(uniform.variance_of_mean() + chain.variance_of_mean());
+  }
+
+  void count() {
+    const auto discoveries = [](const std::vector<TwoSampleTest>& tests, double TwoSampleTest::*p) {
+      std::vector<double> values;
+      for (const TwoSampleTest& test : tests) values.push_back(test.*p);
+      return count_discoveries(values, SamplingBias::kRate);
+    };
+    bias_.tested = static_cast<int>(std::count_if(bias_.tests.begin(), bias_.tests.end(),
+                                                  [](const auto& t) { return !std::isnan(t.p_mean); }));
+    bias_.means = discoveries(bias_.tests, &TwoSampleTest::p_mean);
+    bias_.distributions = discoveries(bias_.tests, &TwoSampleTest::p_distribution);
+    bias_.control_means = discoveries(bias_.control, &TwoSampleTest::p_mean);
+    bias_.control_distributions = discoveries(bias_.control, &TwoSampleTest::p_distribution);
+  }
+
+  const ConvexBody& body_;
+  const UniformSample& sample_;
+  const Eigen::MatrixXd& chain_;
+  ChainAssessor uniform_assessor_, half_assessor_, chain_assessor_;
+  double noise_ = 0;
+  SamplingBias bias_;
+};
+
+}  // namespace
+
+void BinnedValues::add(double value) {
+  const int bin = static_cast<int>(std::floor(value / width));
+  if (counts.empty()) first = bin;
+  if (bin < first) {
+    counts.insert(counts.begin(), static_cast<std::size_t>(first - bin), 0);
+    first = bin;
+  }
+  const auto place = static_cast<std::size_t>(bin - first);
+  if (place >= counts.size()) counts.resize(place + 1, 0);
+  ++counts[place];
+}
+
+SamplingBias compare_with_uniform(const ConvexBody& body, const UniformSample& sample,
+                                  const Eigen::MatrixXd& chain, const ForceRanges* ranges) {
+  return Comparison(body, sample, chain).run(ranges);
+}
+
+}  // namespace indet
