@@ -107,7 +107,7 @@ bool TableauSolver::repair() {
   is_held_.assign(is_held_.size(), 0);
   for (const int k : held) is_held_[static_cast<std::size_t>(tableau_.column_of(k))] = 1;
   since_built_ = 0;
-  return true;
+  return tableau_.error() <= kError;
 }
 
 }  // namespace indet

@@ -97,6 +97,17 @@ class DamagedFiles(ProgramTest):
         change("/contacts/mu", lambda f, n, v: f.create_group(n))
 
 
+    def test_a_heap_of_strings_without_end_is_refused(self):
+        data = bytearray(self.whole_file())
+        heap = data.index(b"GCOL\x01\0\0\0")
+        place = heap + 16  # the first object: index, references, reserved, size
+        data[place:place + 2] = bytes(2)
+        data[place + 8:place + 16] = bytes(8)
+        done = self.check(bytes(data), "an object of index 0 and size 0")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn(f"at byte {heap} ", done.stderr)
+
+
 @unittest.skipUnless(MOUNT, "no right to mount a file system")
 class Disks(ProgramTest):
     def mounted(self, options, script):

@@ -111,6 +111,16 @@ TEST(Extremes, NoOtherMethodIsSilentlyWrong) {
   EXPECT_GT(total.right, total.marked + total.contained);
 }
 
+/// A basis so ill-conditioned that factorising it anew does not help: the walk must give up, not try for ever.
+TEST(Extremes, TheTableauGivesUpWhereFactorisingDoesNotHelp) {
+  const Scene scene = extremes::random_scene(820, 3);
+  AnalyzeOptions options;
+  options.method = Method::kPivotingTableau;
+  const Tally tally = extremes::judge(scene, analyze(scene.packing, options));
+  EXPECT_EQ(tally.wrong, 0);
+  EXPECT_GT(tally.right + tally.contained + tally.marked, 0);
+}
+
 TEST(Extremes, TheJudgeSeesAWrongNumberAndAMissedBound) {
   const Scene scene{"wedge", "as it is", extremes::fixed_scenes().front().packing};
   const ForceRanges right = analyze(scene.packing);
