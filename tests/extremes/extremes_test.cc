@@ -111,7 +111,8 @@ TEST(Extremes, NoOtherMethodIsSilentlyWrong) {
   EXPECT_GT(total.right, total.marked + total.contained);
 }
 
-/// A basis so ill-conditioned that factorising it anew does not help: the walk must give up, not try for ever.
+/// A basis so ill-conditioned that factorising it anew does not help: the walk must give up, not try for
+/// ever.
 TEST(Extremes, TheTableauGivesUpWhereFactorisingDoesNotHelp) {
   const Scene scene = extremes::random_scene(820, 3);
   AnalyzeOptions options;
