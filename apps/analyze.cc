@@ -21,6 +21,7 @@
 #include "indet/lp/glpk_problem.h"
 #include "indet/verify/exact_check.h"
 #include "paper_work.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -282,6 +283,7 @@ void prove(const Packing& packing, const Context& context, ForceRanges& ranges) 
 }
 
 int run(const Options& options, const Context& context) {
+  try_reading(options.packing);
   const Packing packing = read_packing(options.packing);
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
   analysis.method = parse_method(options.method);

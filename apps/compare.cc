@@ -15,6 +15,7 @@
 #include "indet/io/packing_file.h"
 #include "indet/range/analyze.h"
 #include "paper_work.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -185,6 +186,7 @@ int status_of(const std::vector<Entry>& entries) {
 }
 
 int run(const Options& options, const Context& context) {
+  try_reading(options.packing);
   const Packing packing = read_packing(options.packing);
   std::vector<Entry> entries;
   for (const Method method : kMethods) {

@@ -19,6 +19,7 @@
 #include "indet/ensemble/run.h"
 #include "indet/lp/glpk_problem.h"
 #include "indet/sim/scene_toml.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -117,6 +118,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   if (config.sampling.samples > 0) {
     if (const auto defect = config.sampling.defect()) throw InputError(*defect);
   }
+  for (const std::string& file : o.files) try_reading(file);
   const Plan plan = make_plan(config);
   const Range range = range_of(o.units, static_cast<int>(plan.units.size()));
   if (o.dry_run) return list_units(plan, range, context);

@@ -15,6 +15,7 @@
 #include "indet/io/ranges_file.h"
 #include "indet/io/table.h"
 #include "indet/report/packing_picture.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -107,6 +108,7 @@ std::string resolve_format(const ExportOptions& options) {
 }
 
 int run(ExportOptions options, const Context& context) {
+  try_reading(options.file);
   const Packing packing = read_packing(options.file);
   std::optional<ForceRanges> ranges;
   if (file_has_ranges(options.file)) ranges = read_ranges(options.file);

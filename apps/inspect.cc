@@ -19,6 +19,7 @@
 #include "indet/io/balance.h"
 #include "indet/io/packing_file.h"
 #include "indet/io/ranges_file.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -336,6 +337,7 @@ int inspect_ensemble(const std::string& path, const Context& context) {
 
 int run(const std::string& given, const Context& context) {
   const std::string path = std::filesystem::is_directory(given) ? given + "/ensemble.h5" : given;
+  try_reading(path);
   if (file_is_ensemble(path)) return inspect_ensemble(path, context);
   const FileContents contents = read(path);
   if (context.json) {

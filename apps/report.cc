@@ -12,6 +12,7 @@
 #include "indet/ensemble/html_report.h"
 #include "indet/io/ranges_file.h"
 #include "indet/report/packing_picture.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -55,6 +56,7 @@ int run(const std::string& path, const Context& context) {
     throw InputError(
         fmt::format("{}: has no ensemble.h5; make one with indet ensemble or indet merge", path));
   }
+  try_reading(folder / "ensemble.h5");
   const EnsembleContents contents = read_ensemble(folder / "ensemble.h5");
   std::vector<std::pair<std::string, std::string>> about;
   {

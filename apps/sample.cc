@@ -13,6 +13,7 @@
 #include "indet/io/sampling_file.h"
 #include "indet/sim/perturb_sampling.h"
 #include "sample_uniform.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -64,6 +65,7 @@ void refuse_unused(const SampleOptions& o) {
 int run(SampleOptions o, const Context& context) {
   refuse_unused(o);
   const auto begin = std::chrono::steady_clock::now();
+  try_reading(o.file);
   const Packing packing = read_packing(o.file);
   o.uniform.sampling.seed = o.perturb.seed = o.seed;
   if (o.chains != 0) o.uniform.sampling.chains = o.perturb.chains = o.chains;

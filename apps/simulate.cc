@@ -16,6 +16,7 @@
 #include "indet/ensemble/simulation_values.h"
 #include "indet/io/simulation_file.h"
 #include "indet/sim/scene_toml.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -132,6 +133,7 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
   const bool second = o.protocol.back() == '2';
   if (!o.from.empty()) {
     refuse_scene_options(command);
+    try_reading(o.from);
     const Packing packing = read_packing(o.from);
     const sim::Friction friction = sim::friction_of(packing, {o.mu, o.wall_mu ? o.wall_mu : o.mu});
     Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
@@ -204,6 +206,7 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   Trajectory trajectory;
   std::optional<sim::Checkpoint> resume;
   if (o.resume && std::filesystem::exists(checkpoint_path)) {
+    try_reading(checkpoint_path);
     const StoredCheckpoint checkpoint = read_checkpoint(checkpoint_path);
     if (checkpoint.fingerprint != fingerprint) {
       throw InputError(

@@ -10,6 +10,7 @@
 #include "indet/base/error.h"
 #include "indet/io/simulation_file.h"
 #include "indet/report/trajectory_picture.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -22,6 +23,7 @@ struct TrajectoryOptions {
 };
 
 int run(const TrajectoryOptions& o, const Context& context) {
+  try_reading(o.file);
   const Packing packing = read_packing(o.file);
   const Trajectory trajectory = read_trajectory(o.file);
   if (trajectory.empty() || trajectory.front().positions.size() != packing.disks.size()) {

@@ -13,6 +13,7 @@
 #include "indet/io/packing_file.h"
 #include "indet/io/ranges_file.h"
 #include "indet/verify/exact_check.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -70,6 +71,7 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
 
 int run(const Options& options, const Context& context) {
   const std::string& path = options.file;
+  try_reading(path);
   const Verification result = verify_file(path, context);
   std::optional<ExactCheck> check;
   std::optional<ForceRanges> ranges;

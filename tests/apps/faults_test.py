@@ -70,6 +70,16 @@ class DamagedFiles(ProgramTest):
             flipped[place] ^= 1 << chance.randrange(8)
             self.check(bytes(flipped), f"case {number}: bit of byte {place}")
 
+    def test_headers_that_the_library_stumbles_over_are_refused(self):
+        """HDF5 1.10 crashes on two of these, and reads the third for ever; all were found by fuzzing."""
+        for file in sorted((pathlib.Path(LAMMPS).parent / "forged").iterdir()):
+            shutil.copy(file, self.folder / "forged.h5")
+            for command in (["inspect"], ["verify"], ["analyze", "-o", "out.h5"]):
+                done = run([program.INDET, command[0], "forged.h5", *command[1:]], self.folder)
+                self.assertEqual(done.returncode, 3, f"{file.name}: {command[0]}: {done.stderr}")
+                self.assertTrue(done.stderr.startswith("indet: forged.h5: "), done.stderr)
+                self.assertEqual(self.files(), ["forged.h5"])
+
     def test_wrong_types_and_shapes_are_refused_with_their_place(self):
         data = self.whole_file()
 
