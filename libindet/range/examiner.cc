@@ -1,6 +1,7 @@
 #include "indet/range/examiner.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "indet/base/random.h"
 #include "indet/base/tolerances.h"
@@ -115,9 +116,20 @@ bool Examiner::has_free_edge(Visit& visit, const std::vector<int>& held) const {
   for (int k = 0; k < set_.dim(); ++k) {
     const int inequality = visit.vertex.basis[static_cast<std::size_t>(k)];
     if (std::binary_search(held.begin(), held.end(), inequality)) continue;
-    if (edge_has_length(visit, k)) return true;
+    if (edge_has_length(visit, k) && keeps_to(visit, k, held)) return true;
   }
   return false;
+}
+
+/// True if edge k leaves those of the face's inequalities at zero that a degenerate vertex has not in its
+/// basis.
+bool Examiner::keeps_to(const Visit& visit, int k, const std::vector<int>& held) const {
+  const Basis& basis = visit.vertex.basis;
+  std::vector<int> others;
+  std::set_difference(held.begin(), held.end(), basis.begin(), basis.end(), std::back_inserter(others));
+  if (others.empty()) return true;
+  const Eigen::VectorXd rates = set_.slope(others, Eigen::all) * visit.vertex.edge(k);
+  return rates.lpNorm<Eigen::Infinity>() <= tolerance::kReducedCost;
 }
 
 bool Examiner::edge_has_length(Visit& visit, int k) const {

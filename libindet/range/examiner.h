@@ -73,6 +73,7 @@ class Examiner {
  private:
   Finding judge_one(std::int64_t objective, Visit& visit, const Eigen::VectorXd& costs) const;
   bool edge_has_length(Visit& visit, int k) const;
+  bool keeps_to(const Visit& visit, int k, const std::vector<int>& held) const;
 
   const FeasibleSet& set_;
   const std::vector<Component>& components_;
