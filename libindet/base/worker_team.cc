@@ -17,6 +17,7 @@ struct WorkerTeam::Impl {
   const std::function<void(int, std::int64_t)>* task = nullptr;
   std::atomic<std::int64_t> next{0};
   std::int64_t count = 0;
+  bool pinned = false;
   std::int64_t round = 0;
   int busy = 0;
   bool ending = false;
@@ -27,7 +28,8 @@ struct WorkerTeam::Impl {
   std::vector<std::jthread> threads;
 
   void work(int worker) {
-    for (std::int64_t index = next++; index < count; index = next++) {
+    const auto following = [&](std::int64_t index) { return pinned ? index + workers : next++; };
+    for (std::int64_t index = pinned ? worker : next++; index < count; index = following(index)) {
       try {
         (*task)(worker, index);
       } catch (...) {
@@ -55,6 +57,24 @@ struct WorkerTeam::Impl {
     }
     if (on_exit) on_exit(worker);
   }
+
+  void run(std::int64_t tasks, const std::function<void(int, std::int64_t)>& work_on, bool is_pinned) {
+    {
+      const std::scoped_lock lock(mutex);
+      task = &work_on;
+      count = tasks;
+      pinned = is_pinned;
+      next = 0;
+      failure = nullptr;
+      busy = static_cast<int>(threads.size());
+      ++round;
+    }
+    wake.notify_all();
+    work(0);
+    std::unique_lock lock(mutex);
+    finished.wait(lock, [this] { return busy == 0; });
+    if (failure) std::rethrow_exception(failure);
+  }
 };
 
 WorkerTeam::WorkerTeam(int workers, std::function<void(int)> on_exit) : impl_(std::make_unique<Impl>()) {
@@ -76,21 +96,11 @@ WorkerTeam::~WorkerTeam() {
 int WorkerTeam::workers() const { return impl_->workers; }
 
 void WorkerTeam::run(std::int64_t count, const std::function<void(int, std::int64_t)>& task) {
-  Impl& impl = *impl_;
-  {
-    const std::scoped_lock lock(impl.mutex);
-    impl.task = &task;
-    impl.count = count;
-    impl.next = 0;
-    impl.failure = nullptr;
-    impl.busy = static_cast<int>(impl.threads.size());
-    ++impl.round;
-  }
-  impl.wake.notify_all();
-  impl.work(0);
-  std::unique_lock lock(impl.mutex);
-  impl.finished.wait(lock, [&] { return impl.busy == 0; });
-  if (impl.failure) std::rethrow_exception(impl.failure);
+  impl_->run(count, task, false);
+}
+
+void WorkerTeam::run_pinned(std::int64_t count, const std::function<void(int, std::int64_t)>& task) {
+  impl_->run(count, task, true);
 }
 
 }  // namespace indet

@@ -23,6 +23,9 @@ class WorkerTeam {
   /// are done. The exception of the lowest index that threw one is thrown again.
   void run(std::int64_t count, const std::function<void(int worker, std::int64_t index)>& task);
 
+  /// The same, where worker index mod workers() does each task: what stays with an index stays on its thread.
+  void run_pinned(std::int64_t count, const std::function<void(int worker, std::int64_t index)>& task);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -47,9 +47,11 @@ struct LpSolver::Impl {
   LpOptions options;
   std::unique_ptr<Layout> layout;
   std::unique_ptr<GlpkProblem> problem;
+  Basis factorised;  ///< where GLPK stands, with factors
 
-  GlpkProblem::Settings settings(int rung) const {
+  GlpkProblem::Settings settings(int rung, bool keep_factors) const {
     GlpkProblem::Settings result;
+    result.keep_factors = keep_factors;
     result.method = rung == kWarmOther ? other(layout->warm_method()) : layout->warm_method();
     result.feasibility = options.feasibility;
     result.optimality = options.optimality;
@@ -62,18 +64,25 @@ struct LpSolver::Impl {
   /// One rung; kFailed if it brings nothing.
   LpStatus attempt(int rung, const Objective& objective, const Basis& start, std::span<const int> held,
                    LpAnswer& answer) {
-    if (!problem || !problem->is_alive()) problem = layout->build();
+    if (!problem || !problem->is_alive()) {
+      problem = layout->build();
+      factorised.clear();
+    }
     layout->set_objective(*problem, objective);
     layout->hold(*problem, held, true);
-    if (rung == kWarm || rung == kWarmOther) {
+    const bool goes_on = rung == kWarm && start == factorised;
+    if (goes_on) {
+      // GLPK stands at the start.
+    } else if (rung == kWarm || rung == kWarmOther) {
       layout->set_start(*problem, start);
     } else {
       problem->advanced_basis();
     }
     if (rung == kPresolved) problem->scale(true);
-    const GlpkProblem::Result result = problem->solve(settings(rung));
+    const GlpkProblem::Result result = problem->solve(settings(rung, goes_on));
     answer.pivots += problem->pivots();
     answer.basis = layout->read_basis(*problem);
+    factorised = answer.basis;
     if (rung == kPresolved) problem->scale(false);
     layout->hold(*problem, held, false);
     const LpStatus status = layout->interpret(result);

@@ -28,9 +28,10 @@ struct LpOptions {
   double time_limit = 600;                         ///< seconds a solve
 };
 
-/// Maximises linear objectives over one FeasibleSet by GLPK, from given start vertices. Stateful only for
-/// speed: an answer depends on the arguments alone. GLPK keeps its state per thread, so a solver must be
-/// created, used and destroyed on one thread.
+/// Maximises linear objectives over one FeasibleSet by GLPK, from given start vertices. A start that is the
+/// last vertex found goes on with the factors that GLPK has of it, so that the path of an answer, through
+/// rounding, depends on what was asked before. GLPK keeps its state per thread, so a solver must be created,
+/// used and destroyed on one thread.
 ///
 /// Ladder when a solve fails: the formulation's own simplex from the start vertex; the other simplex from
 /// there; from scratch with GLPK's advanced basis; presolved and rescaled; then kFailed. A failed assertion

@@ -77,7 +77,11 @@ bool Tableau::move_to(const Basis& basis) {
     wanted[static_cast<std::size_t>(k)] = true;
     if (row_of(k) >= 0) rows.push_back(row_of(k));
   }
-  if (rows.empty()) return true;
+  if (rows.empty()) {
+    recompute_slacks();
+    recompute_weights();  // errors made where edges were long stay when they are short again
+    return true;
+  }
   // An exchange of m inequalities multiplies (K − d) × m × (d − m), factorising anew (K − d) × d × d / 2.
   if (2 * rows.size() > active_.size()) return build(basis);
   std::vector<int> columns;

@@ -20,7 +20,7 @@ namespace {
 
 /// Objectives a round. More let more threads work at once, but start from older knowledge: at N = 95, rounds
 /// of 2 cost 2 % more pivots than rounds of 1, rounds of 4 cost 12 % (docs/decisions/rounds.md).
-constexpr std::int64_t kRound = 2;
+constexpr std::size_t kRound = 2;
 
 /// Walks a round: they are independent, so this matters only to memory and to progress.
 constexpr std::size_t kWalks = 16;
@@ -40,6 +40,7 @@ struct Record {
   bool unique = false;
   bool unbounded = false;
   bool failed = false;
+  bool stateless = false;  ///< the canonical state was looked for and not found
   double dual_residual = 0;
   std::vector<int> held;
   Basis proof;
@@ -54,8 +55,7 @@ class Search {
         examiner_(set, components, weight, options.canonical_states),
         walker_(set, tolerance::kSliding),
         records_(2 * components.size()),
-        solvers_(static_cast<std::size_t>(std::max<std::int64_t>(kRound, options.threads))),
-        team_(options.threads, [this](int worker) { solvers_[static_cast<std::size_t>(worker)].reset(); }) {
+        team_(options.threads, [this](int worker) { leave(worker); }) {
     for (std::size_t c = 0; c < components.size(); ++c) {
       records_[2 * c].wanted = components[c].minimise;
       records_[2 * c + 1].wanted = components[c].maximise;
@@ -77,10 +77,12 @@ class Search {
   }
 
  private:
-  /// Where a task is worked on: by which thread, and at which place in its round.
-  struct Post {
-    int worker;
-    std::size_t place;
+  /// A place in the rounds: its solver, which is always used on the same thread, and the vertex at which it
+  /// stands (-1: none that is kept). What a solver answers depends, through rounding, on what it was asked
+  /// before, so solvers belong to places, which are as many for any number of threads.
+  struct Place {
+    std::unique_ptr<Maximiser> solver;
+    int vertex = -1;
   };
 
   /// What a task hands back to the calling thread.
@@ -96,17 +98,20 @@ class Search {
     PaperWork paper;
   };
 
-  /// A solver of GLPK belongs to a thread, and its answers depend on the question alone. What a tableau
-  /// answers depends, through rounding, on what it was asked before: it belongs to a place in the round.
-  Maximiser& solver(int worker, std::size_t place) {
-    const bool is_tableau = options_.method == Method::kPivotingTableau;
-    auto& solver = solvers_[is_tableau ? place : static_cast<std::size_t>(worker)];
-    if (!solver && is_tableau) {
-      solver = std::make_unique<TableauSolver>(set_, options_.pivot_rule, options_.lp);
-    } else if (!solver) {
-      solver = std::make_unique<LpSolver>(set_, options_.formulation, options_.lp);
+  /// Ends the solvers of a thread, on that thread.
+  void leave(int worker) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (static_cast<int>(i) % team_.workers() == worker) places_[i].solver.reset();
     }
-    return *solver;
+  }
+
+  Maximiser& solver(Place& place) const {
+    if (!place.solver && options_.method == Method::kPivotingTableau) {
+      place.solver = std::make_unique<TableauSolver>(set_, options_.pivot_rule, options_.lp);
+    } else if (!place.solver) {
+      place.solver = std::make_unique<LpSolver>(set_, options_.formulation, options_.lp);
+    }
+    return *place.solver;
   }
 
   Record& record(std::int64_t objective) { return records_[static_cast<std::size_t>(objective)]; }
@@ -141,9 +146,12 @@ class Search {
     return candidates;
   }
 
-  /// Takes the findings of a round into the records, in the order of the round.
-  void merge(std::vector<Step> steps) {
-    for (Step& step : steps) {
+  /// Takes the findings of a round into the records, in the order of the round. Returns the number of the
+  /// vertex that each step brought, -1 if it is not kept.
+  std::vector<int> merge(std::vector<Step> steps) {
+    std::vector<int> ids(steps.size(), -1);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      Step& step = steps[i];
       solves_ += step.solves;
       pivots_ += step.pivots;
       paper_ += step.paper;
@@ -164,8 +172,10 @@ class Search {
       if (kept) {
         vertices_.push_back(std::move(step.visited->vertex));
         vertices_.back().active = {};
+        ids[i] = id;
       }
     }
+    return ids;
   }
 
   bool take(Finding& finding, double weight, int id, const Basis& basis) {
@@ -193,15 +203,16 @@ class Search {
     return true;
   }
 
-  /// Runs `work` on the members of a round, in parallel, and merges what they found.
+  /// Runs `work` on the members of a round, each at its place, in parallel, and merges what they found.
   template <class Work>
   void round(const std::vector<std::int64_t>& members, Work work) {
     std::vector<Step> steps(members.size());
-    team_.run(static_cast<std::int64_t>(members.size()), [&](int worker, std::int64_t i) {
-      steps[static_cast<std::size_t>(i)] =
-          work({worker, static_cast<std::size_t>(i)}, members[static_cast<std::size_t>(i)]);
+    team_.run_pinned(static_cast<std::int64_t>(members.size()), [&](int, std::int64_t i) {
+      const auto place = static_cast<std::size_t>(i);
+      steps[place] = work(places_[place], members[place]);
     });
-    merge(std::move(steps));
+    const std::vector<int> ids = merge(std::move(steps));
+    for (std::size_t place = 0; place < ids.size(); ++place) places_[place].vertex = ids[place];
     report();
   }
 
@@ -221,30 +232,45 @@ class Search {
     return r.unbounded || r.failed || r.canonical || (r.optimal && !options_.canonical_states);
   }
 
-  void find_values() {
+  /// The members of the next round: for each place an open objective whose best vertex is the one at which
+  /// the solver stands, which saves a factorisation or an exchange of inequalities, else the first open one.
+  template <class IsOpen>
+  std::vector<std::int64_t> choose_members(IsOpen is_open) {
     std::vector<std::int64_t> members;
-    const auto flush = [&] {
-      if (members.empty()) return;
-      round(members, [this](Post post, std::int64_t objective) { return solve_value(post, objective); });
+    const auto first = [&](auto suits) -> std::int64_t {
+      for (std::int64_t objective = first_open_; objective < examiner_.objectives(); ++objective) {
+        const Record& r = record(objective);
+        const bool is_taken = std::find(members.begin(), members.end(), objective) != members.end();
+        if (is_open(r) && !is_taken && suits(r)) return objective;
+      }
+      return examiner_.objectives();
+    };
+    first_open_ = first([](const Record&) { return true; });
+    for (const Place& place : places_) {
+      std::int64_t chosen = first([&](const Record& r) { return r.vertex == place.vertex; });
+      if (chosen == examiner_.objectives()) chosen = first([](const Record&) { return true; });
+      if (chosen < examiner_.objectives()) members.push_back(chosen);
+    }
+    return members;
+  }
+
+  void find_values() {
+    const auto is_open = [](const Record& r) { return r.wanted && !r.optimal && !r.unbounded && !r.failed; };
+    first_open_ = 0;
+    for (;;) {
+      const std::vector<std::int64_t> members = choose_members(is_open);
+      if (members.empty()) break;
+      round(members, [this](Place& place, std::int64_t objective) { return solve_value(place, objective); });
       for (const std::int64_t objective : members) {
         Record& r = record(objective);
         r.failed = !r.optimal && !r.unbounded;
       }
-      members.clear();
-    };
-    for (std::int64_t objective = 0; objective < static_cast<std::int64_t>(records_.size()); ++objective) {
-      const Record& r = record(objective);
-      if (!r.wanted || r.optimal || r.unbounded || r.failed) continue;
-      members.push_back(objective);
-      if (static_cast<std::int64_t>(members.size()) == kRound) flush();
     }
-    flush();
   }
 
-  Step solve_value(Post post, std::int64_t objective) {
+  Step solve_value(Place& place, std::int64_t objective) {
     const Basis& start = vertices_[static_cast<std::size_t>(record(objective).vertex)].basis;
-    const LpAnswer answer =
-        solver(post.worker, post.place).maximise(examiner_.signed_objective(objective), start);
+    const LpAnswer answer = solver(place).maximise(examiner_.signed_objective(objective), start);
     Step step;
     if (answer.status == LpStatus::kOptimal) {
       step = visit(answer.basis);
@@ -266,7 +292,13 @@ class Search {
       std::vector<std::int64_t> members;
       const auto flush = [&] {
         if (members.empty()) return;
-        round(members, [&](Post, std::int64_t objective) { return walk_to_value(objective, start); });
+        std::vector<Step> steps(members.size());
+        team_.run(static_cast<std::int64_t>(members.size()), [&](int, std::int64_t i) {
+          const auto at = static_cast<std::size_t>(i);
+          steps[at] = walk_to_value(members[at], start);
+        });
+        merge(std::move(steps));
+        report();
         for (const std::int64_t objective : members) record(objective).failed = !record(objective).optimal;
         members.clear();
       };
@@ -304,24 +336,22 @@ class Search {
   }
 
   void find_states() {
-    std::vector<std::int64_t> members;
-    const auto flush = [&] {
-      if (members.empty()) return;
-      round(members, [this](Post post, std::int64_t objective) { return solve_state(post, objective); });
-      members.clear();
-    };
-    for (std::int64_t objective = 0; objective < static_cast<std::int64_t>(records_.size()); ++objective) {
-      const Record& r = record(objective);
+    const auto is_open = [this](const Record& r) {
       // Without a proof of optimality the optimal face is not known.
-      if (!r.wanted || !r.optimal || r.canonical || r.dual_residual > tolerance::kReducedCost) continue;
-      members.push_back(objective);
-      if (static_cast<std::int64_t>(members.size()) == kRound) flush();
+      return r.wanted && r.optimal && !r.canonical && !r.stateless &&
+             r.dual_residual <= tolerance::kReducedCost;
+    };
+    first_open_ = 0;
+    for (;;) {
+      const std::vector<std::int64_t> members = choose_members(is_open);
+      if (members.empty()) break;
+      round(members, [this](Place& place, std::int64_t objective) { return solve_state(place, objective); });
+      for (const std::int64_t objective : members) record(objective).stateless = !record(objective).canonical;
     }
-    flush();
   }
 
   /// The lightest state of the optimal face of a settled objective.
-  Step solve_state(Post post, std::int64_t objective) {
+  Step solve_state(Place& place, std::int64_t objective) {
     const Record& known = record(objective);
     std::vector<int> held = known.held;
     Basis basis = vertices_[static_cast<std::size_t>(known.vertex)].basis;
@@ -330,7 +360,7 @@ class Search {
     std::int64_t pivots = 0;
     bool found = true;
     for (const Objective* functional : {&examiner_.lightness(), &examiner_.generic()}) {
-      const LpAnswer answer = solver(post.worker, post.place).maximise(*functional, basis, held);
+      const LpAnswer answer = solver(place).maximise(*functional, basis, held);
       ++solves;
       pivots += answer.pivots;
       found = answer.status == LpStatus::kOptimal;
@@ -357,7 +387,7 @@ class Search {
       step = visit(basis);
       step.settles_state = true;
       step.unique = !examiner_.has_free_edge(*step.visited, known.held) &&
-                    is_point(post, basis, known.held, solves, pivots);
+                    is_point(place, basis, known.held, solves, pivots);
     }
     step.objective = objective;
     step.solves = solves;
@@ -367,7 +397,7 @@ class Search {
 
   /// True if the face {x_k = 0, k ∈ held} is the given vertex alone: the generic functional is constant on
   /// it. Asked only at degenerate vertices.
-  bool is_point(Post post, const Basis& basis, const std::vector<int>& held, std::int64_t& solves,
+  bool is_point(Place& place, const Basis& basis, const std::vector<int>& held, std::int64_t& solves,
                 std::int64_t& pivots) {
     Objective opposite = examiner_.generic();
     opposite.along_z *= -1;
@@ -375,7 +405,7 @@ class Search {
     std::vector<double> values;
     for (const Objective* functional :
          std::initializer_list<const Objective*>{&examiner_.generic(), &opposite}) {
-      const LpAnswer answer = solver(post.worker, post.place).maximise(*functional, basis, held);
+      const LpAnswer answer = solver(place).maximise(*functional, basis, held);
       ++solves;
       pivots += answer.pivots;
       if (answer.status != LpStatus::kOptimal) return false;
@@ -422,8 +452,9 @@ class Search {
   std::int64_t solves_ = 0;
   std::int64_t pivots_ = 0;
   PaperWork paper_;
-  std::vector<std::unique_ptr<Maximiser>> solvers_;
-  WorkerTeam team_;  // last: its threads use the members above
+  std::array<Place, kRound> places_;
+  std::int64_t first_open_ = 0;  ///< No objective before is open.
+  WorkerTeam team_;              // last: its threads use the members above
 };
 
 }  // namespace

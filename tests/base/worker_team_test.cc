@@ -41,6 +41,22 @@ TEST_P(WorkerTeams, AWorkerKeepsItsThread) {
   for (const auto& ids : threads) EXPECT_LE(ids.size(), 1U);
 }
 
+TEST_P(WorkerTeams, APinnedTaskStaysOnItsThread) {
+  WorkerTeam team(GetParam());
+  std::vector<std::thread::id> threads(20);
+  for (int repeat = 0; repeat < 30; ++repeat) {
+    std::vector<int> done(threads.size());
+    team.run_pinned(static_cast<std::int64_t>(threads.size()), [&](int worker, std::int64_t index) {
+      const auto at = static_cast<std::size_t>(index);
+      EXPECT_EQ(worker, index % team.workers());
+      if (repeat == 0) threads[at] = std::this_thread::get_id();
+      EXPECT_EQ(threads[at], std::this_thread::get_id());
+      ++done[at];
+    });
+    for (const int times : done) ASSERT_EQ(times, 1);
+  }
+}
+
 TEST_P(WorkerTeams, TheFirstFailureIsThrownAndTheTeamGoesOn) {
   WorkerTeam team(GetParam());
   for (int repeat = 0; repeat < 20; ++repeat) {

@@ -57,7 +57,27 @@ TEST_P(Formulations, FindTheBestCornerWarmAndCold) {
   }
 }
 
-TEST_P(Formulations, AnswersDependOnTheArgumentsAlone) {
+TEST_P(Formulations, GoOnFromTheLastVertex) {
+  Random random(45);
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    const int d = 2 + static_cast<int>(random.below(4));
+    const FeasibleSet set = test::random_polytope(d, 6, repeat % 2 == 1, random);
+    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
+    LpSolver solver(set, GetParam());
+    Basis last = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    for (int goal = 0; goal < 20; ++goal) {
+      const Objective objective = random_objective(set, random);
+      const std::vector<int> held = goal % 3 == 2 ? std::vector<int>{last.front()} : std::vector<int>{};
+      const LpAnswer answer = solver.maximise(objective, last, held);
+      ASSERT_EQ(answer.status, LpStatus::kOptimal);
+      EXPECT_EQ(answer.attempts, 1);
+      EXPECT_NEAR(value_of(set, objective, answer), best_corner(set, corners, objective, held), 1e-9);
+      last = answer.basis;
+    }
+  }
+}
+
+TEST_P(Formulations, AnotherStartForgetsWhatWasAskedBefore) {
   Random random(42);
   const FeasibleSet set = test::random_polytope(5, 12, true, random);
   const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
