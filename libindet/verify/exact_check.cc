@@ -34,11 +34,13 @@ struct ObjectiveId {
   }
 };
 
-/// Objectives that start from the same stored state or ray.
+/// Objectives that start from the same stored state or ray, or from neither.
 struct Task {
   int state = -1;
   int ray = -1;
   std::vector<ObjectiveId> objectives;
+
+  bool starts_from_stored() const { return state >= 0 || ray >= 0; }
 };
 
 struct Answer {
@@ -176,7 +178,7 @@ class Check {
     for (const ObjectiveId& id : task.objectives) {
       Answer answer{id, {}, false};
       if (start) answer.optimum = exact::maximise(problem_, start, id.goal(), options_.pivot_limit);
-      answer.as_stored = answer.optimum.pivots == 0 && task.state + task.ray > -2;
+      answer.as_stored = answer.optimum.pivots == 0 && task.starts_from_stored();
       answers.push_back(std::move(answer));
     }
     return answers;
