@@ -330,4 +330,9 @@ Collection collect_units(const Plan& plan, const std::vector<std::filesystem::pa
   return collection;
 }
 
+void read_unit(const std::filesystem::path& path) {
+  EnsembleTables tables;
+  Collector(tables).add(Unit{}, path);
+}
+
 }  // namespace indet

@@ -33,4 +33,7 @@ struct Collection {
 Collection collect_units(const Plan& plan, const std::vector<std::filesystem::path>& folders,
                          const ProgressCallback& progress = {});
 
+/// Reads of the file of a unit what collect_units would read, and forgets it. Throws as that does.
+void read_unit(const std::filesystem::path& path);
+
 }  // namespace indet
