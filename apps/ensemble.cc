@@ -123,6 +123,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   const Range range = range_of(o.units, static_cast<int>(plan.units.size()));
   if (o.dry_run) return list_units(plan, range, context);
   const std::filesystem::path folder = o.folder;
+  try_reading(unit_paths({folder}, plan), read_unit);
   std::filesystem::create_directories(folder);
   write_plan(folder, plan);
 

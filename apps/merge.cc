@@ -13,6 +13,7 @@
 #include "indet/base/error.h"
 #include "indet/ensemble/table.h"
 #include "indet/ensemble/unit_file.h"
+#include "trial_reading.h"
 
 namespace indet::app {
 namespace {
@@ -56,6 +57,7 @@ int run(const MergeCommand& o, const Context& context) {
                                     [&](const fs::path& part) { return fs::equivalent(part, folder); });
     if (!listed) folders.push_back(folder);
   }
+  try_reading(unit_paths(folders, plan), read_unit);
   Collection collection = collect_units(plan, folders, context.progress());
   const std::vector<std::string>& missing = collection.missing;
   if (!missing.empty() && !o.allow_missing) {

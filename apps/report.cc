@@ -28,6 +28,8 @@ std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& t
     const fs::path first = folder / "units" / (name + ".h5");
     const fs::path second = folder / "units" / ("md2" + name.substr(3) + ".h5");
     if (!fs::exists(first) || !fs::exists(second)) continue;
+    try_reading(first);
+    try_reading(second);
     const Packing cd1 = read_packing(first);
     const Packing md2 = read_packing(second);
     const ForceRanges ranges = read_ranges(first);

@@ -6,11 +6,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "indet/base/error.h"
@@ -21,6 +24,8 @@
 
 namespace indet::app {
 namespace {
+
+using Read = std::function<void(const std::filesystem::path&)>;
 
 /// Processor time for reading a file, far above what it takes.
 rlim_t seconds_for(std::uintmax_t bytes) {
@@ -36,43 +41,84 @@ void attempt(Read read) {
   }
 }
 
-[[noreturn]] void read_in_child(const std::filesystem::path& path) {
+/// Processor time of this process from now on.
+void limit_time(rlim_t seconds) {
+  rusage used{};
+  rlimit limit{};
+  getrusage(RUSAGE_SELF, &used);
+  getrlimit(RLIMIT_CPU, &limit);
+  const auto spent = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+  limit.rlim_cur = std::min(spent + seconds, limit.rlim_max);
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
+/// Writes a byte before each file, so that the parent knows which was the last.
+[[noreturn]] void read_in_child(const std::vector<std::filesystem::path>& paths, const Read& read,
+                                int marks) {
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDERR_FILENO);
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) std::signal(number, SIG_DFL);
   const rlimit no_core{0, 0};
-  std::error_code ignored;
-  const rlim_t seconds = seconds_for(std::filesystem::file_size(path, ignored));
-  const rlimit time{seconds, seconds};
   setrlimit(RLIMIT_CORE, &no_core);
-  setrlimit(RLIMIT_CPU, &time);
-  attempt([&] { read_packing(path); });
-  attempt([&] { read_ranges(path); });
-  attempt([&] { read_sampling(path); });
-  attempt([&] { read_trajectory(path); });
-  attempt([&] { read_checkpoint(path); });
-  attempt([&] { compute_digests(path); });
+  for (const std::filesystem::path& path : paths) {
+    if (write(marks, "", 1) != 1) _exit(0);
+    std::error_code ignored;
+    limit_time(seconds_for(std::filesystem::file_size(path, ignored)));
+    attempt([&] { read(path); });
+  }
   _exit(0);
+}
+
+/// Until the other end is closed.
+std::size_t count_bytes(int descriptor) {
+  std::array<char, 256> bytes;
+  std::size_t count = 0;
+  while (true) {
+    const ssize_t size = read(descriptor, bytes.data(), bytes.size());
+    if (size > 0) count += static_cast<std::size_t>(size);
+    if (size == 0 || (size < 0 && errno != EINTR)) return count;
+  }
 }
 
 }  // namespace
 
-void try_reading(const std::string& path) {
+void try_reading(const std::vector<std::filesystem::path>& paths, const Read& read) {
+  std::vector<std::filesystem::path> files;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  std::copy_if(paths.begin(), paths.end(), std::back_inserter(files), [&](const std::filesystem::path& path) {
+    return std::filesystem::is_regular_file(path, ignored);
+  });
+  std::array<int, 2> ends{};
+  if (files.empty() || pipe(ends.data()) != 0) return;
+  const auto [from_child, to_parent] = ends;
   const pid_t child = fork();
-  if (child == 0) read_in_child(path);
+  if (child == 0) read_in_child(files, read, to_parent);
+  close(to_parent);
+  const std::size_t begun = count_bytes(from_child);
+  close(from_child);
   if (child < 0) return;  // no process to be had: read without a trial
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) return;
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  if ((WIFEXITED(status) && WEXITSTATUS(status) == 0) || begun == 0) return;
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGINT || signal == SIGTERM) return;
   const bool is_endless = signal == SIGXCPU || signal == SIGKILL;
-  throw InputError(fmt::format("{}: the file is damaged: the HDF5 library {} while reading it", path,
+  throw InputError(fmt::format("{}: the file is damaged: the HDF5 library {} while reading it",
+                               files[begun - 1].string(),
                                is_endless ? "did not come to an end" : "was stopped by an error of its own"));
+}
+
+void try_reading(const std::string& path) {
+  try_reading({path}, [](const std::filesystem::path& file) {
+    attempt([&] { read_packing(file); });
+    attempt([&] { read_ranges(file); });
+    attempt([&] { read_sampling(file); });
+    attempt([&] { read_trajectory(file); });
+    attempt([&] { read_checkpoint(file); });
+    attempt([&] { compute_digests(file); });
+  });
 }
 
 }  // namespace indet::app

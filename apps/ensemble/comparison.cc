@@ -6,17 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "indet/ensemble/curves.h"
+
 namespace indet {
 namespace {
 
-constexpr std::array<const char*, 4> kProtocols = {"cd1", "cd2", "md1", "md2"};
-constexpr std::array<const char*, 4> kNames = {"CD-1", "CD-2", "MD-1", "MD-2"};
-
-std::string text_of(const Estimate& e, const char* unit = " mg") {
-  if (std::isnan(e.value)) return "–";
-  if (std::isnan(e.error)) return fmt::format("{:.1f}{}", e.value, unit);
-  return fmt::format("{:.1f} ± {:.1f}{}", e.value, e.error, unit);
-}
+std::string text_of_force(const Estimate& e) { return std::isnan(e.value) ? text_of(e) : text_of(e) + " mg"; }
 
 std::string verdict(const Estimate& ours, double paper, double paper_error) {
   if (std::isnan(ours.value) || std::isnan(ours.error)) return "";
@@ -57,26 +52,26 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
   if (!samples.has({"cd1", "cd2", "md1", "md2"})) return rows;
   add_dimensions(tables, rows);
   const std::array<const char*, 4> sliding = {"near 0", "near 0", "between", "most"};
-  for (std::size_t p = 0; p < 4; ++p) {
-    if (!samples.has({kProtocols[p]})) continue;
-    rows.push_back({fmt::format("sliding contacts, {} (Fig. 6b)", kNames[p]), sliding[p],
-                    text_of(mean_of(samples.runs(kProtocols[p], "sliding")), ""), ""});
+  for (std::size_t p = 0; p < kFamilies.size(); ++p) {
+    if (!samples.has({kFamilies[p].protocol})) continue;
+    rows.push_back({fmt::format("sliding contacts, {} (Fig. 6b)", kFamilies[p].name), sliding[p],
+                    text_of(mean_of(samples.runs(kFamilies[p].protocol, "sliding"))), ""});
   }
-  for (std::size_t p = 0; p < 4; ++p) {
-    if (!samples.has({kProtocols[p]})) continue;
-    const Estimate mean = mean_of(samples.runs(kProtocols[p], "mean_R"));
-    rows.push_back({fmt::format("mean R, {}", kNames[p]), p == 0 ? "9.3 mg" : "", text_of(mean),
-                    p == 0 ? verdict(mean, 9.3, 0) : ""});
+  for (const Family& family : kFamilies) {
+    if (!samples.has({family.protocol})) continue;
+    const Estimate mean = mean_of(samples.runs(family.protocol, "mean_R"));
+    const bool is_known = family.protocol == std::string("cd1");
+    rows.push_back({fmt::format("mean R, {}", family.name), is_known ? "9.3 mg" : "", text_of_force(mean),
+                    is_known ? verdict(mean, 9.3, 0) : ""});
   }
-  const std::array<std::array<double, 2>, 4> radius = {{{33, 1.4}, {34, 1.3}, {41, 1.7}, {40, 1.5}}};
-  for (std::size_t p = 0; p < 4; ++p) {
-    const std::vector<double> values = samples.runs(kProtocols[p], "r");
+  for (const Family& family : kFamilies) {
+    const std::vector<double> values = samples.runs(family.protocol, "r");
     const Estimate r = mean_of(values);
     if (std::isnan(r.value)) continue;
-    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", kNames[p]),
-                    fmt::format("{:g} ± {:g} mg, s.d. 12 mg", radius[p][0], radius[p][1]),
-                    fmt::format("{}, s.d. {:.1f} mg", text_of(r), standard_deviation(values)),
-                    verdict(r, radius[p][0], radius[p][1])});
+    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", family.name),
+                    fmt::format("{} mg, s.d. 12 mg", paper_radius(family)),
+                    fmt::format("{}, s.d. {:.1f} mg", text_of_force(r), standard_deviation(values)),
+                    verdict(r, family.paper_r, family.paper_r_error)});
   }
   struct Distance {
     const char* name;
@@ -89,7 +84,7 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
                             Distance{"distance MD-2 – CD-2", "md2", "distance_cd2", 45, 3}}) {
     const Estimate ours = mean_of(samples.runs(d.protocol, d.column));
     if (std::isnan(ours.value)) continue;
-    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of(ours),
+    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of_force(ours),
                     verdict(ours, d.value, d.error)});
   }
   for (const bool md : {false, true}) {
@@ -105,7 +100,7 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
       const bool solver = std::string(column).starts_with("solver");
       rows.push_back({fmt::format("main maximum of d{}, {}, {} (Fig. 8)", column[solver ? 9 : 2],
                                   md ? "MD" : "CD", solver ? "solver's vertices" : "canonical states"),
-                      fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of(ours),
+                      fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of_force(ours),
                       near ? "agrees" : "differs"});
     }
   }

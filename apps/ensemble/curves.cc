@@ -1,5 +1,7 @@
 #include "indet/ensemble/curves.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,6 +27,10 @@ Series curve(const std::string& name, const GroupedValues& data, double low, dou
 }
 
 }  // namespace
+
+std::string paper_radius(const Family& family) {
+  return fmt::format("{:g} ± {:g}", family.paper_r, family.paper_r_error);
+}
 
 Series scatter(const EnsembleTables& tables, const Family& family, const char* x, const char* y) {
   Series series{.name = family.name,

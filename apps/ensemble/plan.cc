@@ -212,4 +212,13 @@ std::filesystem::path unit_path(const std::filesystem::path& folder, const Unit&
   return folder / "units" / (unit.name + ".h5");
 }
 
+std::vector<std::filesystem::path> unit_paths(const std::vector<std::filesystem::path>& folders,
+                                              const Plan& plan) {
+  std::vector<std::filesystem::path> paths;
+  for (const std::filesystem::path& folder : folders) {
+    for (const Unit& unit : plan.units) paths.push_back(unit_path(folder, unit));
+  }
+  return paths;
+}
+
 }  // namespace indet

@@ -62,5 +62,8 @@ void write_plan(const std::filesystem::path& folder, const Plan& plan);
 Plan read_plan(const std::filesystem::path& folder);
 
 std::filesystem::path unit_path(const std::filesystem::path& folder, const Unit& unit);
+/// Those of all units in each of the folders, whether there is a file or not.
+std::vector<std::filesystem::path> unit_paths(const std::vector<std::filesystem::path>& folders,
+                                              const Plan& plan);
 
 }  // namespace indet

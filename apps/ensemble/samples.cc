@@ -1,9 +1,17 @@
 #include "indet/ensemble/samples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace indet {
+
+std::string text_of(const Estimate& estimate, int digits) {
+  if (std::isnan(estimate.value)) return "–";
+  if (std::isnan(estimate.error)) return fmt::format("{:.{}f}", estimate.value, digits);
+  return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, digits, estimate.error, digits);
+}
 
 double largest(const GroupedValues& data) {
   double high = 0;

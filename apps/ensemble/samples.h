@@ -9,6 +9,9 @@
 
 namespace indet {
 
+/// "33.1 ± 1.4", the value alone if its error is unknown, "–" if there is none.
+std::string text_of(const Estimate& estimate, int digits = 1);
+
 /// The largest finite value; 0 if there is none.
 double largest(const GroupedValues& data);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "indet/base/error.h"
@@ -16,21 +15,9 @@
 namespace indet {
 namespace {
 
-using Kind = FlatTable::Kind;
 using Column = FlatTable::Column;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 4> kObjectives = {"R_min", "R_max", "T_min", "T_max"};
-
-Column real(const char* name, const char* unit, const char* long_name) {
-  return {.name = name, .kind = Kind::kReal, .label = {unit, long_name}};
-}
-Column integer(const char* name, const char* long_name) {
-  return {.name = name, .kind = Kind::kInteger, .label = {"1", long_name}};
-}
-Column text(const char* name, const char* long_name) {
-  return {.name = name, .kind = Kind::kText, .label = {"1", long_name}};
-}
 
 /// Attributes of /equilibrium that become columns of the same name.
 const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
@@ -46,14 +33,7 @@ const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
     {"unbounded", "minima and maxima without limit"}};
 
 /// Attributes of /simulation and /sampling that become columns of another name.
-struct Taken {
-  const char* column;
-  const char* group;
-  const char* attribute;
-  const char* unit;
-  const char* long_name;
-};
-constexpr std::array<Taken, 15> kTaken = {{
+constexpr std::array<AttributeColumn, 15> kAttributes = {{
     {"time", "/simulation", "time", "sqrt(r_max/g)", "simulated time"},
     {"steps", "/simulation", "steps", "1", "time steps"},
     {"kinetic_energy", "/simulation", "kinetic_energy", "mg r_max", "kinetic energy per disk at the end"},
@@ -72,61 +52,75 @@ constexpr std::array<Taken, 15> kTaken = {{
     {"worst_raw_sample_residual", "/sampling", "worst_raw_residual", "mg", "the same before the polish"},
 }};
 
+/// Seconds.
+constexpr std::array<AttributeColumn, 5> kTimings = {{
+    {"simulate", "/provenance/timings", "simulate", "s", "simulation"},
+    {"analyze", "/provenance/timings", "analyze", "s", "ranges and canonical extremal states"},
+    {"analyze_solver_states", "/provenance/timings", "analyze_solver_states", "s",
+     "ranges again, with the solver's own extremal states"},
+    {"sample", "/provenance/timings", "sample", "s", "perturb and resolve"},
+    {"sample_uniform", "/provenance/timings", "sample_uniform", "s", "uniform sampling, and its comparison"},
+}};
+
 std::vector<Column> run_columns() {
-  std::vector<Column> columns = {text("unit", "name of the packing"),
-                                 text("protocol", "how it was made"),
-                                 integer("seed", "seed, -1 if there is none"),
-                                 integer("disks", "number of disks N"),
-                                 integer("contacts", "number of contacts M"),
-                                 integer("lower_bound", "2M - 3N"),
-                                 real("mg", "force", "the unit of force, in the scene's own units"),
-                                 text("status", "bounded, unbounded, point or empty"),
-                                 text("ending", "why the simulation ended")};
-  for (const auto& [name, long_name] : kEquilibrium) columns.push_back(integer(name, long_name));
-  columns.push_back(integer("unique", "minima and maxima that only one state attains"));
-  columns.push_back(integer("states", "distinct extremal states"));
-  columns.push_back(real("worst_primal_residual", "mg", "imbalance of the worst extremal state"));
-  columns.push_back(real("worst_dual_residual", "1", "largest reduced cost of the wrong sign"));
-  columns.push_back(real("mean_R", "mg", "mean normal force of the simulated state"));
-  columns.push_back(real("norm", "mg", "norm of the simulated state"));
-  columns.push_back(real("largest_norm", "mg", "largest norm of an extremal state"));
-  columns.push_back(real("distance_cd1", "mg", "distance to the cd1 state of the same seed"));
-  columns.push_back(real("distance_cd2", "mg", "distance to the cd2 state of the same seed"));
-  for (const Taken& t : kTaken) columns.push_back(real(t.column, t.unit, t.long_name));
+  std::vector<Column> columns = {
+      FlatTable::text("unit", "name of the packing"),
+      FlatTable::text("protocol", "how it was made"),
+      FlatTable::integer("seed", "seed, -1 if there is none"),
+      FlatTable::integer("disks", "number of disks N"),
+      FlatTable::integer("contacts", "number of contacts M"),
+      FlatTable::integer("lower_bound", "2M - 3N"),
+      FlatTable::real("mg", "force", "the unit of force, in the scene's own units"),
+      FlatTable::text("status", "bounded, unbounded, point or empty"),
+      FlatTable::text("ending", "why the simulation ended")};
+  for (const auto& [name, long_name] : kEquilibrium) columns.push_back(FlatTable::integer(name, long_name));
+  columns.push_back(FlatTable::integer("unique", "minima and maxima that only one state attains"));
+  columns.push_back(FlatTable::integer("states", "distinct extremal states"));
+  columns.push_back(FlatTable::real("worst_primal_residual", "mg", "imbalance of the worst extremal state"));
+  columns.push_back(FlatTable::real("worst_dual_residual", "1", "largest reduced cost of the wrong sign"));
+  columns.push_back(FlatTable::real("mean_R", "mg", "mean normal force of the simulated state"));
+  columns.push_back(FlatTable::real("norm", "mg", "norm of the simulated state"));
+  columns.push_back(FlatTable::real("largest_norm", "mg", "largest norm of an extremal state"));
+  columns.push_back(FlatTable::real("distance_cd1", "mg", "distance to the cd1 state of the same seed"));
+  columns.push_back(FlatTable::real("distance_cd2", "mg", "distance to the cd2 state of the same seed"));
+  append_columns(kAttributes, columns);
   for (Column& column : uniform_run_columns()) columns.push_back(std::move(column));
   return columns;
 }
 
-std::vector<Column> contact_columns() {
-  std::vector<Column> columns = {integer("run", "row of the packing in /table/runs"),
-                                 integer("contact", "number of the contact in its packing"),
-                                 integer("body_a", "row of disk a"),
-                                 integer("body_b", "row of disk b, or -(w+1) for the wall of row w"),
-                                 real("x", "r_max", "place of the contact"),
-                                 real("y", "r_max", "place of the contact"),
-                                 real("normal_x", "1", "unit normal from b to a"),
-                                 real("normal_y", "1", "unit normal from b to a"),
-                                 real("gap", "r_max", "distance of the surfaces"),
-                                 real("mu", "1", "Coulomb friction coefficient"),
-                                 real("R", "mg", "normal force as simulated"),
-                                 real("T", "mg", "tangential force as simulated")};
-  for (const char* name : kObjectives) columns.push_back(real(name, "mg", "end of the range"));
-  columns.push_back(real("delta_R", "1", "local indeterminacy of the normal force"));
-  columns.push_back(real("delta_T", "1", "local indeterminacy of the tangential force"));
-  columns.push_back(real("d_R", "1", "global indeterminacy of the normal force"));
-  columns.push_back(real("d_T", "1", "global indeterminacy of the tangential force"));
-  columns.push_back(real("solver_d_R", "1", "d_R with the vertices that the solver lands on"));
-  columns.push_back(real("solver_d_T", "1", "d_T with the vertices that the solver lands on"));
-  columns.push_back(real("R_star", "1", "place of R in its range"));
-  columns.push_back(real("T_star", "1", "place of T in its range"));
-  for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
-    columns.push_back(integer(name, "1 if only one state attains the value"));
-  for (Column& column : uniform_contact_columns()) columns.push_back(std::move(column));
+std::vector<Column> timing_columns() {
+  std::vector<Column> columns;
+  append_columns(kTimings, columns);
   return columns;
 }
 
-double attribute_or_nan(const Hdf5File& file, const std::string& group, const std::string& name) {
-  return file.has(group) && file.has_attribute(group, name) ? file.double_attribute(group, name) : kNaN;
+std::vector<Column> contact_columns() {
+  std::vector<Column> columns = {
+      FlatTable::integer("run", "row of the packing in /table/runs"),
+      FlatTable::integer("contact", "number of the contact in its packing"),
+      FlatTable::integer("body_a", "row of disk a"),
+      FlatTable::integer("body_b", "row of disk b, or -(w+1) for the wall of row w"),
+      FlatTable::real("x", "r_max", "place of the contact"),
+      FlatTable::real("y", "r_max", "place of the contact"),
+      FlatTable::real("normal_x", "1", "unit normal from b to a"),
+      FlatTable::real("normal_y", "1", "unit normal from b to a"),
+      FlatTable::real("gap", "r_max", "distance of the surfaces"),
+      FlatTable::real("mu", "1", "Coulomb friction coefficient"),
+      FlatTable::real("R", "mg", "normal force as simulated"),
+      FlatTable::real("T", "mg", "tangential force as simulated")};
+  for (const char* name : kObjectives) columns.push_back(FlatTable::real(name, "mg", "end of the range"));
+  columns.push_back(FlatTable::real("delta_R", "1", "local indeterminacy of the normal force"));
+  columns.push_back(FlatTable::real("delta_T", "1", "local indeterminacy of the tangential force"));
+  columns.push_back(FlatTable::real("d_R", "1", "global indeterminacy of the normal force"));
+  columns.push_back(FlatTable::real("d_T", "1", "global indeterminacy of the tangential force"));
+  columns.push_back(FlatTable::real("solver_d_R", "1", "d_R with the vertices that the solver lands on"));
+  columns.push_back(FlatTable::real("solver_d_T", "1", "d_T with the vertices that the solver lands on"));
+  columns.push_back(FlatTable::real("R_star", "1", "place of R in its range"));
+  columns.push_back(FlatTable::real("T_star", "1", "place of T in its range"));
+  for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
+    columns.push_back(FlatTable::integer(name, "1 if only one state attains the value"));
+  for (Column& column : uniform_contact_columns()) columns.push_back(std::move(column));
+  return columns;
 }
 
 /// One packing as read from its file, in units of mg.
@@ -176,8 +170,7 @@ class Collector {
     add_extremal(file, "/ensemble/extremal_R", 0, run);
     add_extremal(file, "/ensemble/solver_extremal_R", 1, run);
     tables_.timings.add_rows(1);
-    for (const char* stage : {"simulate", "analyze", "analyze_solver_states", "sample", "sample_uniform"})
-      tables_.timings.set(stage, run, attribute_or_nan(file, "/provenance/timings", stage));
+    take_attributes(file, kTimings, run, tables_.timings);
     add_distances(unit, content, run);
   }
 
@@ -211,7 +204,7 @@ class Collector {
       runs.set("mean_R", run, sum / packing.contact_count());
       runs.set("norm", run, packing.simulated_forces().norm() / mg);
     }
-    for (const Taken& t : kTaken) runs.set(t.column, run, attribute_or_nan(file, t.group, t.attribute));
+    take_attributes(file, kAttributes, run, runs);
   }
 
   void add_contacts(const Hdf5File& file, const UnitFile& content, std::size_t run) {
@@ -297,85 +290,16 @@ class Collector {
 
 }  // namespace
 
-FlatTable::FlatTable(std::vector<Column> columns) : columns_(std::move(columns)) {
-  for (std::size_t i = 0; i < columns_.size(); ++i) index_[columns_[i].name] = i;
-}
-
-const FlatTable::Column& FlatTable::find(const std::string& name) const { return columns_[index_.at(name)]; }
-
-void FlatTable::add_rows(std::size_t count) {
-  rows_ += count;
-  for (Column& column : columns_) {
-    if (column.kind == Kind::kReal) column.reals.resize(rows_, kNaN);
-    if (column.kind == Kind::kInteger) column.integers.resize(rows_, -1);
-    if (column.kind == Kind::kText) column.texts.resize(rows_);
-  }
-}
-
-void FlatTable::set(const std::string& column, std::size_t row, double value) {
-  Column& c = columns_[index_.at(column)];
-  if (c.kind == Kind::kReal) c.reals.at(row) = value;
-  if (c.kind == Kind::kInteger) c.integers.at(row) = static_cast<std::int32_t>(value);
-}
-
-void FlatTable::set(const std::string& column, std::size_t row, const std::string& value) {
-  columns_[index_.at(column)].texts.at(row) = value;
-}
-
-double FlatTable::number(const std::string& column, std::size_t row) const {
-  const Column& c = find(column);
-  return c.kind == Kind::kReal ? c.reals.at(row) : c.integers.at(row);
-}
-
-const std::string& FlatTable::text(const std::string& column, std::size_t row) const {
-  return find(column).texts.at(row);
-}
-
-double FlatTable::sum(const std::string& column) const {
-  double result = 0;
-  for (const double value : numbers(column)) result += std::isnan(value) ? 0 : value;
-  return result;
-}
-
-std::vector<double> FlatTable::numbers(const std::string& column) const {
-  const Column& c = find(column);
-  if (c.kind == Kind::kReal) return c.reals;
-  return {c.integers.begin(), c.integers.end()};
-}
-
-void FlatTable::write(Hdf5File& file, const std::string& group) const {
-  file.make_group(group);
-  for (const Column& c : columns_) {
-    const std::string path = group + "/" + c.name;
-    if (c.kind == Kind::kReal) file.write(path, c.reals, {rows_}, c.label);
-    if (c.kind == Kind::kInteger) file.write(path, c.integers, {rows_}, c.label);
-    if (c.kind == Kind::kText) file.write_strings(path, c.texts, c.label);
-  }
-}
-
-void FlatTable::read(const Hdf5File& file, const std::string& group) {
-  rows_ = file.shape(group + "/" + columns_.front().name, 1)[0];
-  for (Column& c : columns_) {
-    const std::string path = group + "/" + c.name;
-    if (c.kind == Kind::kReal) c.reals = file.read_doubles(path, {rows_});
-    if (c.kind == Kind::kInteger) c.integers = file.read_integers(path, {rows_});
-    if (c.kind == Kind::kText) c.texts = file.read_strings(path, rows_);
-  }
-}
-
 EnsembleTables::EnsembleTables()
     : runs(run_columns()),
       contacts(contact_columns()),
-      extremal({integer("run", "row of the packing in /table/runs"),
-                integer("choice", "0: canonical states, 1: vertices that the solver lands on"),
-                integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),
-                integer("bin", "R in [bin, bin+1) mg"), integer("count", "contacts with such a force")}),
+      extremal({FlatTable::integer("run", "row of the packing in /table/runs"),
+                FlatTable::integer("choice", "0: canonical states, 1: vertices that the solver lands on"),
+                FlatTable::integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),
+                FlatTable::integer("bin", "R in [bin, bin+1) mg"),
+                FlatTable::integer("count", "contacts with such a force")}),
       sampled(sampled_columns()),
-      timings({real("simulate", "s", "simulation"),
-               real("analyze", "s", "ranges and canonical extremal states"),
-               real("analyze_solver_states", "s", "ranges again, with the solver's own extremal states"),
-               real("sample", "s", "perturb and resolve"),
-               real("sample_uniform", "s", "uniform sampling, and its comparison")}) {}
+      timings(timing_columns()) {}
 
 Collection collect_units(const Plan& plan, const std::vector<std::filesystem::path>& folders,
                          const ProgressCallback& progress) {
@@ -404,6 +328,11 @@ Collection collect_units(const Plan& plan, const std::vector<std::filesystem::pa
     }
   }
   return collection;
+}
+
+void read_unit(const std::filesystem::path& path) {
+  EnsembleTables tables;
+  Collector(tables).add(Unit{}, path);
 }
 
 }  // namespace indet

@@ -16,10 +16,6 @@ namespace {
 const std::vector<std::string> kCd = {"cd1", "cd2"};
 const std::vector<std::string> kMd = {"md1", "md2"};
 
-std::string text_of(const Estimate& e, int digits) {
-  return fmt::format("{:.{}f} ± {:.{}f}", e.value, digits, e.error, digits);
-}
-
 double largest_of(const std::vector<Series>& series) {
   double high = 0;
   for (const Series& s : series) {
@@ -44,6 +40,8 @@ std::vector<Family> families_with(const Samples& samples, const char* column) {
 }
 
 Figure radii(const EnsembleTables& tables, const Samples& samples) {
+  std::vector<std::string> radii_of_paper;
+  for (const Family& f : kFamilies) radii_of_paper.push_back(fmt::format("{} ({})", paper_radius(f), f.name));
   Figure figure{
       .id = "uniform-r",
       .title = "Radius and centre of both samplings",
@@ -52,8 +50,8 @@ Figure radii(const EnsembleTables& tables, const Samples& samples) {
           "same polytope, one point a packing. Right: the distance of the two centres, the noise of "
           "both means taken away, against the uniform r. Dotted: equal.",
       .claim =
-          "r = 33 ± 1.4 (CD-1), 34 ± 1.3 (CD-2), 41 ± 1.7 (MD-1), 40 ± 1.5 mg (MD-2). Whether "
-          "perturb-and-resolve weights all regions rightly is left open.",
+          fmt::format("r in mg: {}. Whether perturb-and-resolve weights all regions rightly is left open.",
+                      fmt::join(radii_of_paper, ", ")),
       .finding = "",
       .panels = {}};
   for (const char* label : {"r [38] (mg)", "distance of centres (mg)"}) {

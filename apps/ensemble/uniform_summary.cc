@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 
@@ -13,16 +12,8 @@
 namespace indet {
 namespace {
 
-constexpr std::array<const char*, 4> kPaper = {"33 ± 1.4", "34 ± 1.3", "41 ± 1.7", "40 ± 1.5"};
-
 using Rows = std::vector<std::vector<std::string>>;
 using Cell = std::function<std::string(const std::string& protocol)>;
-
-std::string text_of(const Estimate& e, int digits) {
-  if (std::isnan(e.value)) return "–";
-  if (std::isnan(e.error)) return fmt::format("{:.{}f}", e.value, digits);
-  return fmt::format("{:.{}f} ± {:.{}f}", e.value, digits, e.error, digits);
-}
 
 class Summary {
  public:
@@ -89,9 +80,8 @@ class Summary {
     add("r of perturb-and-resolve [38] (mg)", "",
         [&](const std::string& p) { return text_of(mean_of(compared(p, "r")), 1); });
     add("the same in the paper (mg)", "", [](const std::string& p) {
-      const auto* const family =
-          std::find_if(kFamilies.begin(), kFamilies.end(), [&](const Family& f) { return p == f.protocol; });
-      return std::string(kPaper.at(static_cast<std::size_t>(family - kFamilies.begin())));
+      return paper_radius(*std::find_if(kFamilies.begin(), kFamilies.end(),
+                                        [&](const Family& f) { return p == f.protocol; }));
     });
     add_mean("ratio of both", "1", "bias_ratio", 2);
     add_mean("distance of their centres (mg)", "0", "bias_shift", 1);

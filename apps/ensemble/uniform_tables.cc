@@ -6,18 +6,10 @@
 namespace indet {
 namespace {
 
-using Kind = FlatTable::Kind;
 using Column = FlatTable::Column;
 
-/// A column that is an attribute of a group of the unit file.
-struct Taken {
-  const char* column;
-  const char* group;
-  const char* attribute;
-  const char* unit;
-  const char* long_name;
-};
-constexpr std::array<Taken, 26> kTaken = {{
+/// Attributes of /uniform and /bias.
+constexpr std::array<AttributeColumn, 26> kAttributes = {{
     {"uniform_r", "/uniform", "r", "mg", "radius of the uniform distribution [38]"},
     {"uniform_r_error", "/uniform", "r_error", "mg", "its standard error"},
     {"uniform_spread", "/uniform", "spread", "mg", "standard deviation of the distance from its centre"},
@@ -73,10 +65,6 @@ constexpr std::array<TakenContacts, 8> kTakenContacts = {{
      "the same for two halves of the uniform sample"},
 }};
 
-Column real(const char* name, const char* unit, const char* long_name) {
-  return {.name = name, .kind = Kind::kReal, .label = {unit, long_name}};
-}
-
 /// R of each contact from a dataset of R and T in turn, in mg.
 void take_normal_forces(const Hdf5File& file, const std::string& dataset, const char* column, double mg,
                         FlatTable& contacts, std::size_t first) {
@@ -107,41 +95,36 @@ void add_bins(const Hdf5File& file, const std::string& group, const char* quanti
 }  // namespace
 
 std::vector<Column> uniform_run_columns() {
-  std::vector<Column> columns = {
-      {.name = "uniform",
-       .kind = Kind::kText,
-       .label = {"1",
-                 "uniform sampling: converged, limit; unbounded, point, empty; nothing if not asked for"}}};
-  for (const Taken& t : kTaken) columns.push_back(real(t.column, t.unit, t.long_name));
+  std::vector<Column> columns = {FlatTable::text(
+      "uniform", "uniform sampling: converged, limit; unbounded, point, empty; nothing if not asked for")};
+  append_columns(kAttributes, columns);
   return columns;
 }
 
 std::vector<Column> uniform_contact_columns() {
-  std::vector<Column> columns = {real("uniform_R", "mg", "mean R of the uniform distribution"),
-                                 real("uniform_R_deviation", "mg", "its standard deviation over the states")};
-  for (const TakenContacts& t : kTakenContacts) columns.push_back(real(t.column, t.unit, t.long_name));
+  std::vector<Column> columns = {
+      FlatTable::real("uniform_R", "mg", "mean R of the uniform distribution"),
+      FlatTable::real("uniform_R_deviation", "mg", "its standard deviation over the states")};
+  for (const TakenContacts& t : kTakenContacts)
+    columns.push_back(FlatTable::real(t.column, t.unit, t.long_name));
   return columns;
 }
 
 std::vector<Column> sampled_columns() {
-  return {{.name = "run", .kind = Kind::kInteger, .label = {"1", "row of the packing in /table/runs"}},
-          {.name = "sampling", .kind = Kind::kInteger, .label = {"1", "0: uniform, 1: perturb-and-resolve"}},
-          {.name = "quantity",
-           .kind = Kind::kText,
-           .label = {"1", "R (mg); standard_R: (R - mean)/deviation, of the uniform distribution; R_star"}},
-          real("low", "1", "lower end of the bin"),
-          real("width", "1", "its width"),
-          real("contacts", "1", "contacts in the bin, mean over the states")};
+  return {FlatTable::integer("run", "row of the packing in /table/runs"),
+          FlatTable::integer("sampling", "0: uniform, 1: perturb-and-resolve"),
+          FlatTable::text("quantity",
+                          "R (mg); standard_R: (R - mean)/deviation, of the uniform distribution; R_star"),
+          FlatTable::real("low", "1", "lower end of the bin"),
+          FlatTable::real("width", "1", "its width"),
+          FlatTable::real("contacts", "1", "contacts in the bin, mean over the states")};
 }
 
 void add_uniform_sampling(const Hdf5File& file, EnsembleTables& tables, std::size_t run,
                           std::size_t first_contact) {
   if (!file.has("/uniform")) return;
   tables.runs.set("uniform", run, file.string_attribute("/uniform", "outcome"));
-  for (const Taken& t : kTaken) {
-    if (file.has(t.group) && file.has_attribute(t.group, t.attribute))
-      tables.runs.set(t.column, run, file.double_attribute(t.group, t.attribute));
-  }
+  take_attributes(file, kAttributes, run, tables.runs);
   FlatTable& contacts = tables.contacts;
   const double mg = tables.runs.number("mg", run);
   if (file.has("/uniform/center")) {

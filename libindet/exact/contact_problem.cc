@@ -90,6 +90,19 @@ Entries force_entries(const RowNumbers& number, const indet::Contact& contact, c
 
 }  // namespace
 
+std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces) {
+  std::vector<double> strengths;
+  strengths.reserve(forces.size());
+  for (std::size_t i = 0; i < packing.contacts.size(); ++i) {
+    const double mu = packing.contacts[i].mu;
+    const double R = forces[2 * i];
+    const double T = forces[2 * i + 1];
+    strengths.push_back(mu > 0 ? (R + T / mu) / 2 : R);
+    strengths.push_back(mu > 0 ? (R - T / mu) / 2 : R);
+  }
+  return strengths;
+}
+
 mpq_class scaled(const mpq_class& value, long power) {
   mpq_class result;
   if (power >= 0) {

@@ -77,6 +77,10 @@ class ContactProblem {
   std::vector<int> row_number_;
 };
 
+/// Strengths of all edges, in double precision, at forces R and T of each contact in turn:
+/// (R ± T/μ)/2, and R on both edges where μ = 0. Precondition: two forces a contact.
+std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces);
+
 /// value · 2^power.
 mpq_class scaled(const mpq_class& value, long power);
 

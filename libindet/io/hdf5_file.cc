@@ -14,7 +14,6 @@
 #include <system_error>
 #include <utility>
 
-#include "indet/io/global_heap.h"
 #include "indet/io/sha256.h"
 #include "indet/io/whole_file.h"
 
@@ -476,10 +475,6 @@ Hdf5File Hdf5File::open(const fs::path& path) {
   if (!fs::exists(path, error)) throw Hdf5ReadError(fmt::format("{}: there is no such file", path.string()));
   if (!fs::is_regular_file(path, error)) throw Hdf5ReadError(fmt::format("{}: is not a file", path.string()));
   state->file_size = static_cast<std::size_t>(fs::file_size(path, error));
-  if (const auto place = find_damaged_heap(path)) {
-    throw Hdf5ReadError(
-        fmt::format("{}: the strings at byte {} of the file are damaged", path.string(), *place));
-  }
   const Id access = state->own(H5Pcreate(H5P_FILE_ACCESS), "access");
   state->check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), "access");
   // A read-only file system cannot lock.

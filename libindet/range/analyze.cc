@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -172,14 +173,8 @@ bool proves_rays(const Packing& packing, const ForceRanges& ranges) {
   if (ranges.rays.rows() == 0) return true;
   const exact::ContactProblem exact(packing);
   for (Eigen::Index q = 0; q < ranges.rays.rows(); ++q) {
-    std::vector<double> strength(static_cast<std::size_t>(exact.edges()), 0);
-    for (int e = 0; e < exact.edges(); ++e) {
-      const double mu = packing[ContactId(e / 2)].mu;
-      const double R = ranges.rays(q, e - e % 2);
-      const double T = ranges.rays(q, e - e % 2 + 1);
-      strength[static_cast<std::size_t>(e)] = mu > 0 ? (R + (e % 2 == 0 ? T : -T) / mu) / 2 : R;
-    }
-    if (!exact::proves_ray(exact, strength, tolerance::kReducedCost)) return false;
+    const std::span<const double> ray(&ranges.rays(q, 0), static_cast<std::size_t>(ranges.rays.cols()));
+    if (!exact::proves_ray(exact, exact::edge_strengths(packing, ray), tolerance::kReducedCost)) return false;
   }
   return true;
 }

@@ -140,13 +140,12 @@ class Encloser {
     }
     if (rank == 0) {
       right_inverse_.resize(unknowns, 0);
-      norm_ = 0;
       return;
     }
     right_inverse_ = SparseQr(matrix_.transpose(), tolerance)
                          .solve_transposed_columns(Eigen::MatrixXd::Identity(rank, rank));
     const Eigen::VectorXd sums = right_inverse_.cwiseAbs().rowwise().sum();
-    norm_ = kWiden * sums.maxCoeff();
+    const double norm = kWiden * sums.maxCoeff();
     const Eigen::MatrixXd product = matrix_ * right_inverse_;
     const Eigen::VectorXd off = (product - Eigen::MatrixXd::Identity(rank, rank)).cwiseAbs().rowwise().sum();
     // Rounding of the product, and of the entries of A where they are not stored doubles themselves.
@@ -159,7 +158,7 @@ class Encloser {
     const double longest = static_cast<double>(unknowns + 2);
     const double gamma = kWiden * (off + kU * (longest * magnitude + 8 * entries)).maxCoeff();
     const bool all_rows = rank == unknowns - polytope_.dim;
-    gain_ = all_rows && gamma < 0.5 && std::isfinite(norm_) ? kWiden * norm_ / (1 - gamma) : kInfinity;
+    gain_ = all_rows && gamma < 0.5 && std::isfinite(norm) ? kWiden * norm / (1 - gamma) : kInfinity;
   }
 
   /// η of a point u.
@@ -456,7 +455,6 @@ class Encloser {
   Eigen::SparseMatrix<double> edge_matrix_;  ///< the same on edges
   Eigen::VectorXd wrench_, wrench_error_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> right_inverse_;  ///< P
-  double norm_ = 0;
   double gain_ = 1;  ///< ‖P‖∞ / (1 − γ), +inf if γ is not below 1
   double row_length_ = 0;
   std::vector<StateBound> states_;

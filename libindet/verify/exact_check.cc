@@ -34,11 +34,13 @@ struct ObjectiveId {
   }
 };
 
-/// Objectives that start from the same stored state or ray.
+/// Objectives that start from the same stored state or ray, or from neither.
 struct Task {
   int state = -1;
   int ray = -1;
   std::vector<ObjectiveId> objectives;
+
+  bool starts_from_stored() const { return state >= 0 || ray >= 0; }
 };
 
 struct Answer {
@@ -92,15 +94,8 @@ class Check {
   /// Edges by their strength at a state or along a ray; those named as active last.
   std::vector<double> preference_of(const Eigen::VectorXd& forces,
                                     const std::vector<std::int32_t>& active) const {
-    std::vector<double> preference = no_preference();
-    for (int e = 0; e < problem_.edges(); ++e) {
-      const int contact = e / 2;
-      const double mu = packing_[ContactId(contact)].mu;
-      const double R = forces[2 * contact];
-      const double T = forces[2 * contact + 1];
-      double& strength = preference[static_cast<std::size_t>(e)];
-      strength = mu > 0 ? (R + (e % 2 == 0 ? T : -T) / mu) / 2 : R;
-    }
+    std::vector<double> preference =
+        exact::edge_strengths(packing_, {forces.data(), static_cast<std::size_t>(forces.size())});
     for (const std::int32_t e : active) {
       if (e >= 0) preference[static_cast<std::size_t>(e)] = -kInfinity;
     }
@@ -183,7 +178,7 @@ class Check {
     for (const ObjectiveId& id : task.objectives) {
       Answer answer{id, {}, false};
       if (start) answer.optimum = exact::maximise(problem_, start, id.goal(), options_.pivot_limit);
-      answer.as_stored = answer.optimum.pivots == 0 && task.state + task.ray > -2;
+      answer.as_stored = answer.optimum.pivots == 0 && task.starts_from_stored();
       answers.push_back(std::move(answer));
     }
     return answers;

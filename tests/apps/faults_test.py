@@ -4,6 +4,7 @@ Always a message on stderr, the exit status that the README promises, and no fil
 Arguments: the indet executable, the LAMMPS dumps.
 """
 
+import json
 import pathlib
 import random
 import resource
@@ -80,6 +81,20 @@ class DamagedFiles(ProgramTest):
                 self.assertTrue(done.stderr.startswith("indet: forged.h5: "), done.stderr)
                 self.assertEqual(self.files(), ["forged.h5"])
 
+    def test_such_headers_are_refused_in_the_folder_of_an_ensemble(self):
+        ensemble = ["ensemble", "--protocols", "cd1,md2", "--seeds", "1", "--disks", "6", "--samples", "0",
+                    "--uniform-seeds", "0", "--no-solver-states", "-o", "e"]
+        self.run_indet(*ensemble)
+        shutil.copy(pathlib.Path(LAMMPS).parent / "forged/type.h5", self.folder / "e/units/md2-0000.h5")
+        for command in (ensemble, ["merge", "e", "-o", "m"], ["report", "e"]):
+            done = self.run_indet(*command, status=3)
+            self.assertTrue(done.stderr.startswith("indet: e/units/md2-0000.h5: the file is damaged"), done.stderr)
+        self.assertEqual(self.files(), ["e"])
+        self.assertEqual(list((self.folder / "e").glob("report*")), [])
+        (self.folder / "e/units/md2-0000.h5").unlink()
+        again = json.loads(self.run_indet(*ensemble, "--json").stdout)
+        self.assertEqual((again["done"], again["skipped"]), (1, 1))
+
     def test_wrong_types_and_shapes_are_refused_with_their_place(self):
         data = self.whole_file()
 
@@ -105,17 +120,6 @@ class DamagedFiles(ProgramTest):
         change("/particles/disks/mass",
                lambda f, n, v: f.create_dataset(n, shape=(1 << 60,), chunks=(1 << 10,), dtype="f8"))
         change("/contacts/mu", lambda f, n, v: f.create_group(n))
-
-
-    def test_a_heap_of_strings_without_end_is_refused(self):
-        data = bytearray(self.whole_file())
-        heap = data.index(b"GCOL\x01\0\0\0")
-        place = heap + 16  # the first object: index, references, reserved, size
-        data[place:place + 2] = bytes(2)
-        data[place + 8:place + 16] = bytes(8)
-        done = self.check(bytes(data), "an object of index 0 and size 0")
-        self.assertEqual(done.returncode, 3)
-        self.assertIn(f"at byte {heap} ", done.stderr)
 
 
 @unittest.skipUnless(MOUNT, "no right to mount a file system")

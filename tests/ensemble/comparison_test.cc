@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -36,6 +37,14 @@ std::set<std::string> verdicts(const EnsembleTables& tables) {
   std::set<std::string> result;
   for (const Comparison& row : compare_with_paper(tables)) result.insert(row.verdict);
   return result;
+}
+
+TEST(Comparison, WritesWhatIsKnownOfAnEstimate) {
+  const double unknown = std::nan("");
+  EXPECT_EQ(text_of({33.04, 1.36}), "33.0 ± 1.4");
+  EXPECT_EQ(text_of({0.512, 0.004}, 2), "0.51 ± 0.00");
+  EXPECT_EQ(text_of({33.04, unknown}), "33.0");
+  EXPECT_EQ(text_of({unknown, unknown}), "–");
 }
 
 TEST(Comparison, JudgesTheCaseOfThePaper) {

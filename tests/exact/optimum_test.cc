@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "indet/exact/certificate.h"
 #include "support/extremes.h"
@@ -15,6 +16,16 @@ namespace {
 std::shared_ptr<const ContactBasis> any_basis(const ContactProblem& problem) {
   const std::vector<double> preference(static_cast<std::size_t>(problem.edges()), 0);
   return ContactBasis::create(problem, problem.choose_basis(preference));
+}
+
+TEST(EdgeStrengths, AddUpToTheForces) {
+  Packing packing = zoo::wedge(0.5, 0.25);
+  packing.contacts[1].mu = 0;
+  const std::vector<double> x = edge_strengths(packing, std::vector<double>{3, -0.5, 2, 0});
+  ASSERT_EQ(x.size(), 4);
+  EXPECT_EQ(x[0] + x[1], 3);
+  EXPECT_EQ(0.25 * (x[0] - x[1]), -0.5);
+  EXPECT_EQ(x[2], 2) << "R itself without friction";
 }
 
 /// sin and cos as stored: then the forces of the groove are rational.

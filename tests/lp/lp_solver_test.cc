@@ -10,6 +10,7 @@
 #include "indet/lp/glpk_problem.h"
 #include "indet/lp/vertex.h"
 #include "indet/lp/walk.h"
+#include "support/maximiser_checks.h"
 #include "support/objectives.h"
 #include "support/oracle.h"
 #include "support/sets.h"
@@ -23,6 +24,10 @@ namespace {
 using test::best_corner;
 using test::random_objective;
 using test::value_of;
+
+test::MakeMaximiser maker(Formulation formulation) {
+  return [formulation](const FeasibleSet& set) { return std::make_unique<LpSolver>(set, formulation); };
+}
 
 class Formulations : public testing::TestWithParam<Formulation> {};
 
@@ -94,40 +99,11 @@ TEST_P(Formulations, AnotherStartForgetsWhatWasAskedBefore) {
 
 TEST_P(Formulations, HeldFacesAreKeptAndThenReleased) {
   Random random(43);
-  for (int repeat = 0; repeat < 60; ++repeat) {
-    const int d = 2 + static_cast<int>(random.below(3));
-    const FeasibleSet set = test::random_polytope(d, 5, repeat % 2 == 1, random);
-    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
-    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
-    LpSolver solver(set, GetParam());
-    const std::vector<int> held(start.begin(), start.begin() + 1 + static_cast<long>(random.below(2)));
-    const Objective objective = random_objective(set, random);
-    SCOPED_TRACE(repeat);
-    const LpAnswer on_face = solver.maximise(objective, start, held);
-    ASSERT_EQ(on_face.status, LpStatus::kOptimal);
-    EXPECT_NEAR(value_of(set, objective, on_face), best_corner(set, corners, objective, held), 1e-9);
-    const Vertex vertex = compute_vertex(set, on_face.basis);
-    for (const int k : held) EXPECT_NEAR(vertex.x[k], 0, 1e-12);
-    const LpAnswer free = solver.maximise(objective, start);
-    EXPECT_NEAR(value_of(set, objective, free), best_corner(set, corners, objective, {}), 1e-9);
-  }
+  test::expect_held_faces_are_kept_and_released(maker(GetParam()), random);
 }
 
 TEST_P(Formulations, TellUnboundedFromOptimal) {
-  FeasibleSet set;  // z0 ≥ 0, z1 ≥ 0, z0 − z1 ≥ −1
-  set.slope.resize(3, 2);
-  set.slope << 1, 0, 0, 1, 1, -1;
-  set.offset = Eigen::Vector3d(0, 0, 1);
-  test::describe_implicitly(set);
-  LpSolver solver(set, GetParam());
-  for (const Basis& start : {Basis{}, Basis{0, 1}}) {
-    EXPECT_EQ(solver.maximise(make_objective(set, {{0, 1.0}}), start).status, LpStatus::kUnbounded);
-    EXPECT_EQ(solver.maximise(make_objective(set, {{1, 1.0}}), start).status, LpStatus::kUnbounded);
-    const Objective down = make_objective(set, {{1, 1.0}, {0, -2.0}});
-    const LpAnswer answer = solver.maximise(down, start);
-    ASSERT_EQ(answer.status, LpStatus::kOptimal);
-    EXPECT_EQ(value_of(set, down, answer), 1);  // at (0, 1)
-  }
+  test::expect_unbounded_is_told_from_optimal(maker(GetParam()), {{}, {0, 1}});
 }
 
 TEST_P(Formulations, TellInfeasibleSets) {

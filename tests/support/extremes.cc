@@ -5,12 +5,17 @@
 
 #include "indet/base/random.h"
 #include "support/rational_simplex.h"
+#include "support/scene_builder.h"
 #include "support/zoo.h"
 
 namespace indet::extremes {
 namespace {
 
+using zoo::add_disk;
+using zoo::add_wall;
 using zoo::column;
+using zoo::empty_scene;
+using zoo::touch;
 
 std::string power_name(const char* what, int exponent) {
   return std::string(what) + "1e" + std::to_string(exponent);
@@ -34,40 +39,9 @@ void set_friction(Packing& packing, double mu) {
   for (Contact& contact : packing.contacts) contact.mu = mu;
 }
 
-DiskId add_disk(Packing& packing, Vector2 position, double radius, double mass) {
-  Disk disk;
-  disk.id = packing.disk_count() + 1;
-  disk.position = position;
-  disk.radius = radius;
-  disk.mass = mass;
-  disk.inertia = mass * radius * radius / 2;
-  packing.disks.push_back(disk);
-  return DiskId(packing.disk_count() - 1);
-}
-
-WallId add_wall(Packing& packing, Vector2 point, Vector2 normal) {
-  Wall wall;
-  wall.id = packing.wall_count() + 1;
-  wall.point = point;
-  wall.normal = normal;
-  packing.walls.push_back(wall);
-  return WallId(packing.wall_count() - 1);
-}
-
-void touch(Packing& packing, DiskId a, Body b, double mu) {
-  Contact contact;
-  contact.a = a;
-  contact.b = b;
-  contact.normal = geometric_normal(packing, a, b);
-  contact.gap = geometric_gap(packing, a, b);
-  contact.mu = mu;
-  packing.contacts.push_back(contact);
-}
-
 /// columns × rows disks on a square lattice in a box.
 Packing square_lattice(int columns, int rows, double mu) {
-  Packing packing;
-  packing.gravity = {0, -1};
+  Packing packing = empty_scene();
   const WallId floor = add_wall(packing, {0, 0}, {0, 1});
   const WallId left = add_wall(packing, {-1, 0}, {1, 0});
   const WallId right = add_wall(packing, {2.0 * columns - 1, 0}, {-1, 0});
@@ -86,8 +60,7 @@ Packing square_lattice(int columns, int rows, double mu) {
 /// `count` disks on an arc between two walls that face its ends. Stands only where the arc is the line of
 /// thrust, and every contact carries the torque: empty but for one disk or two.
 Packing arch(int count, double half_angle, double mu) {
-  Packing packing;
-  packing.gravity = {0, -1};
+  Packing packing = empty_scene();
   const double step = 2 * half_angle / (count + 1);
   const double radius = 1 / std::sin(step / 2);
   const auto place = [&](int k) {
@@ -106,8 +79,7 @@ Packing arch(int count, double half_angle, double mu) {
 
 /// One disk on `count` walls whose normals fan out by `angle` from the vertical.
 Packing fan(int count, double angle, double mu) {
-  Packing packing;
-  packing.gravity = {0, -1};
+  Packing packing = empty_scene();
   const DiskId disk = add_disk(packing, {0, 0}, 1, 1);
   for (int k = 0; k < count; ++k) {
     const double tilt = angle * (2 * k - count + 1);
@@ -171,8 +143,7 @@ void add_ratios(Collection& all) {
   }
   for (int k = -6; k <= 6; ++k) {
     const double radius = std::pow(10.0, k);
-    Packing packing;
-    packing.gravity = {0, -1};
+    Packing packing = empty_scene();
     const WallId floor = add_wall(packing, {0, 0}, {0, 1});
     const WallId left = add_wall(packing, {-1, 0}, {1, 0});
     const DiskId low = add_disk(packing, {0, 1}, 1, 1);
@@ -187,8 +158,7 @@ void add_ratios(Collection& all) {
     touch(packing, high, Body::wall(left), 0.4);
     all.add("radius ratio", power_name("upper disk ", k), packing);
     // On the floor both, the unit disk at the left wall, the other one beside it and at a right wall.
-    Packing row;
-    row.gravity = {0, -1};
+    Packing row = empty_scene();
     const WallId ground = add_wall(row, {0, 0}, {0, 1});
     const WallId west = add_wall(row, {-1, 0}, {1, 0});
     const double distance = 2 * std::sqrt(radius);
