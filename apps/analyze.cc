@@ -208,7 +208,14 @@ void print_sample(const Packing& packing, const ForceRanges& ranges) {
   fmt::print("\nall {} contacts, from {} of them drawn with seed {} ({:.0f} %)\n", packing.contact_count(),
              ranges.requested, ranges.sample_seed, 100 * kConfidence);
   for (const auto& [name, e] : {std::pair("δR", ranges.sample_R), {"δT", ranges.sample_T}}) {
-    fmt::print("  {}   mean {:>9.4g} … {:<9.4g} distribution ± {:.2g}\n", name, e.low, e.high, e.band);
+    if (std::isnan(e.low)) {
+      const bool is_small = ranges.requested < kFewestForInterval;
+      fmt::print(
+          "  {}   mean {:.4g} in the sample, no interval{}\n", name, e.mean,
+          is_small ? fmt::format(" (--contacts sample:{} or more tells one)", kFewestForInterval) : "");
+    } else {
+      fmt::print("  {}   mean {:>9.4g} … {:<9.4g} distribution ± {:.2g}\n", name, e.low, e.high, e.band);
+    }
   }
 }
 

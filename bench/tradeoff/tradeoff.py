@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """What accuracy costs: the time and the error of every setting that trades one for the other, on one plot.
 
-    bench/tradeoff/tradeoff.py [--build build/release] [--seeds 2] [--repetitions 200] [--out DIR]
+    bench/tradeoff/tradeoff.py [--build build/release] [--seeds 2] [--packings 12] [--repetitions 200] [--out DIR]
 
 Knobs: the tolerance of the linear programs, with GLPK's own numbers (raw) and with those recomputed from its bases; the
 formulation, the method and its pivot rule; --accuracy; --contacts sample:K; tolerance and sweeps of contact dynamics;
-stiffness and time step of molecular dynamics; the number of perturb-and-resolve solutions. The reference of ranges are the
-recomputed and certified vertices of the edge formulation, whose enclosure is below 1e-9 mg.
+stiffness and time step of molecular dynamics; the number of perturb-and-resolve solutions. The reference of the levels of
+accuracy are the values of --accuracy exact, in rational arithmetic. That of the linear programs are the recomputed and
+certified vertices of the edge formulation, whose distance from exact arithmetic is a point of its own.
 
 An error is relative: of the mean of dR (the ranges), of the mean of the canonical d_R (the states), of the mean of dR among
-packings (the simulators), of r (perturb-and-resolve). "worst" is the largest error of any single value, in mg. Seconds are
-CPU time: of the search alone for solver settings, else of the whole program. Writes tradeoff.json, tradeoff.csv and tradeoff.svg to DIR.
+packings (the simulators, beside the finest setting of the knob, with the standard error of the difference), of r
+(perturb-and-resolve). "worst" is the largest error of any single value, in mg. Seconds are CPU time: of the search alone for
+solver settings, else of the whole program, without the threads that OpenBLAS starts and that wait for work. Writes tradeoff.json, tradeoff.csv and tradeoff.svg to DIR.
 """
 import argparse
 import collections
@@ -26,7 +28,8 @@ import tempfile
 import h5py
 import numpy as np
 
-FLOOR = 1e-16  # an error of 0 is drawn here
+FLOOR = 1e-15  # rounding: errors below are none, and are drawn here
+RANGES = ["R_min", "R_max", "T_min", "T_max"]
 
 
 class Bench:
@@ -42,7 +45,8 @@ class Bench:
     def run(self, *arguments):
         """The JSON document of a subcommand, and the CPU time of its process; status 5 (uncertain) counts as done."""
         process = subprocess.Popen([self.indet, "--threads", "1", *map(str, arguments), "--json", "--quiet"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                   env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
         output = process.stdout.read()
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -107,65 +111,83 @@ def linear_programs(bench, packings):
 
 
 def accuracy_levels(bench, packings):
-    levels = {}
-    for level in ["fast", "standard"]:
-        bench.say(f"accuracy {level}")
+    levels, values = {}, {}
+    for level, repeats in [("exact", 1), ("standard", 3), ("fast", 3)]:
         for file in packings:
-            for _ in range(3):
+            for _ in range(repeats):
+                bench.say(f"accuracy {level}")
                 run = bench.run("analyze", file, "--accuracy", level, "-o", bench.folder / "r.h5")
                 known = levels.setdefault((level, file), run)
                 if run["cpu"] < known["cpu"]:
                     levels[level, file] = run
-    for level in ["fast", "standard"]:
+            with h5py.File(bench.folder / "r.h5") as content:
+                force = content["parameters"].attrs["mg"]
+                values[level, file] = np.array([content["ranges"][name][()] for name in RANGES]) / force
+    for level in ["fast", "standard", "exact"]:
         for name, quantity in [("mean_delta_R", "mean delta"), ("mean_d_R", "mean d_R")]:
-            pairs = [(levels[level, file], levels["standard", file]) for file in packings]
+            pairs = [(levels[level, file], levels["exact", file]) for file in packings]
+            worst = [np.abs(values[level, file] - values["exact", file]).max() for file in packings]
             bench.add(f"accuracy, {quantity}", level, [run["cpu"] for run, _ in pairs],
-                      [abs(run[name] - right[name]) / right[name] for run, right in pairs], quantity)
+                      [abs(run[name] - right[name]) / right[name] for run, right in pairs], quantity, worst=worst)
 
 
 def estimate(values, population):
     """Ends of the interval of the mean, and half-width of the band, as docs/theory.md has them."""
-    from scipy.stats import t
-    count = len(values)
-    half = t.ppf(0.975, count - 1) * values.std(ddof=1) * math.sqrt((1 - count / population) / count)
+    from scipy.stats import skew, t
+    count, deviation = len(values), values.std(ddof=1)
+    left = 1 - count / population
+    gamma = skew(values) * (values.std() / deviation) ** 3
     band = math.sqrt((1 - (count - 1) / population) * math.log(2 / 0.05) / (2 * count))
-    return values.mean() - half, values.mean() + half, band
+    quantile = t.ppf(0.975, count - 1) / math.sqrt(count)
+    ends = []
+    for target in (quantile, -quantile):  # W + g W^2/3 + g^2 W^3/27 + g/6K = target, whose left side grows with W
+        roots = np.roots([gamma ** 2 / 27, gamma / 3, 1, gamma / (6 * count) - target])
+        ends.append(values.mean() - deviation * math.sqrt(left) * roots[np.abs(roots.imag).argmin()].real)
+    return *ends, band
 
 
-def samples(bench, file, repetitions, timed=10):
-    """Errors and coverage of what a sample of contacts tells. The program draws and analyses some samples, which gives the
+def samples(bench, packings, repetitions, timed=10):
+    """Errors and coverage of what a sample of contacts tells, of each packing. The program draws and analyses some samples, which gives the
     time and checks the formulas; ranges do not depend on what else is asked for, so the other samples are drawn from those of
     all contacts."""
     full = bench.folder / "full.h5"
-    bench.run("analyze", file, "--accuracy", "fast", "-o", full)
-    with h5py.File(full) as content:
-        delta = content["ranges/delta_R"][()]
-    ordered, mean = np.sort(delta), delta.mean()
+    deltas = {}
+    for file in packings:
+        bench.run("analyze", file, "--accuracy", "fast", "-o", full)
+        with h5py.File(full) as content:
+            deltas[file] = content["ranges/delta_R"][()]
     random = np.random.default_rng(1)
-    for size in [5, 10, 20, 40, 80, 120]:
-        if size >= len(delta):
-            continue
-        bench.say(f"samples of {size}")
-        seconds, errors, covered, banded = [], [], 0, 0
-        for seed in range(timed):
-            run = bench.run("analyze", file, "--accuracy", "fast", "--contacts", f"sample:{size}", "--seed", seed, "-o",
-                            bench.folder / "s.h5")
-            with h5py.File(bench.folder / "s.h5") as content:
-                drawn = content["ranges/delta_R"][()]
-            told = run["sample"]["delta_R"]
-            np.testing.assert_allclose([told["low"], told["high"], told["band"]],
-                                       estimate(drawn[~np.isnan(drawn)], len(delta)), rtol=1e-6, atol=1e-6)
-            seconds.append(run["cpu"])
-        for _ in range(repetitions):
-            drawn = np.sort(random.choice(delta, size, replace=False))
-            low, high, band = estimate(drawn, len(delta))
-            distance = np.abs(np.searchsorted(drawn, ordered, side="right") / size -
-                              np.searchsorted(ordered, ordered, side="right") / len(delta)).max()
-            errors.append(drawn.mean() / mean - 1)
-            covered += low <= mean <= high
-            banded += distance <= band
-        bench.add("contacts", f"sample:{size}", seconds, math.sqrt(np.mean(np.square(errors))), "mean delta",
-                  coverage=covered / repetitions, band_coverage=banded / repetitions)
+    for size in [6, 10, 20, 40, 80, 120]:
+        found = [sample(bench, file, deltas[file], size, repetitions, timed, random) for file in packings]
+        joined = {name: [of_packing[name] for of_packing in found] for name in found[0]}
+        bench.add("contacts", f"sample:{size}", joined.pop("seconds"), joined.pop("error"), "mean delta", **joined,
+                  lowest_coverage=min(joined["coverage"]))
+
+
+def sample(bench, file, delta, size, repetitions, timed, random):
+    """Samples of one size from one packing."""
+    ordered, mean = np.sort(delta), delta.mean()
+    bench.say(f"samples of {size}")
+    seconds, errors, covered, banded = [], [], 0, 0
+    for seed in range(timed):
+        run = bench.run("analyze", file, "--accuracy", "fast", "--contacts", f"sample:{size}", "--seed", seed, "-o",
+                        bench.folder / "s.h5")
+        with h5py.File(bench.folder / "s.h5") as content:
+            drawn = content["ranges/delta_R"][()]
+        told = run["sample"]["delta_R"]
+        np.testing.assert_allclose([told["low"], told["high"], told["band"]],
+                                   estimate(drawn[~np.isnan(drawn)], len(delta)), rtol=1e-6, atol=1e-6)
+        seconds.append(run["cpu"])
+    for _ in range(repetitions):
+        drawn = np.sort(random.choice(delta, size, replace=False))
+        low, high, band = estimate(drawn, len(delta))
+        distance = np.abs(np.searchsorted(drawn, ordered, side="right") / size -
+                          np.searchsorted(ordered, ordered, side="right") / len(delta)).max()
+        errors.append(drawn.mean() / mean - 1)
+        covered += low <= mean <= high
+        banded += distance <= band
+    return {"seconds": np.mean(seconds), "error": math.sqrt(np.mean(np.square(errors))),
+            "coverage": covered / repetitions, "band_coverage": banded / repetitions}
 
 
 def measures(bench, file):
@@ -198,16 +220,21 @@ def simulators(bench, seeds):
                                            "overlap": run["mean_overlap"]} | measures(bench, file))
                 except RuntimeError as error:
                     print(f"\n{knob} {setting}: {error}", file=sys.stderr)
-        last = {name: np.mean([entry[name] for entry in found[settings[-1]]]) for name in found[settings[-1]][0]}
+        finest = [entry["mean_delta_R"] for entry in found[settings[-1]]]
         for setting in settings:
             group = found[setting]
             if not group:
                 continue
-            mean = {name: np.mean([entry[name] for entry in group]) for name in group[0]}
-            bench.add(knob, setting, mean["seconds"], abs(mean["mean_delta_R"] / last["mean_delta_R"] - 1),
-                      "mean delta of packings", residual=mean["residual"], overlap=mean["overlap"],
-                      contacts=mean["contacts"], sliding=mean["sliding"], R_star=mean["R_star"],
-                      mean_delta_R=mean["mean_delta_R"])
+            means = {name: np.mean([entry[name] for entry in group]) for name in group[0]}
+            errors = {f"{name}_error": standard_error([entry[name] for entry in group])
+                      for name in ["contacts", "sliding", "R_star", "mean_delta_R"]}
+            difference = 0 if setting == settings[-1] else math.hypot(errors["mean_delta_R_error"], standard_error(finest))
+            bench.add(knob, setting, means.pop("seconds"), abs(means["mean_delta_R"] / np.mean(finest) - 1),
+                      "mean delta of packings", **means, **errors, error_of_error=difference / np.mean(finest))
+
+
+def standard_error(values):
+    return np.std(values, ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
 
 
 def perturbations(bench, file, seeds=4):
@@ -227,7 +254,7 @@ def front(points):
     """Of the points of one quantity, those that no other beats in both time and error."""
     best = []
     for point in sorted(points, key=lambda p: (p["seconds"], p["error"])):
-        if not best or point["error"] < best[-1]["error"]:
+        if not best or max(point["error"], FLOOR) < max(best[-1]["error"], FLOOR):
             best.append(point)
     return best
 
@@ -244,8 +271,12 @@ def draw(points, path):
         members = [p for p in points if p["quantity"] in quantities]
         for number, knob in enumerate(dict.fromkeys(p["knob"] for p in members)):
             line = [p for p in members if p["knob"] == knob]
-            axis.plot([p["seconds"] for p in line], [max(p["error"], FLOOR) for p in line], markers[number % len(markers)],
-                      label=knob, markersize=5, linestyle="none")
+            errors = [max(p["error"], FLOOR) for p in line]
+            # Down to a tenth at most, so that bars that reach below zero do not stretch a logarithmic axis.
+            bars = [[min(p.get("error_of_error", 0), 0.9 * e) for p, e in zip(line, errors)],
+                    [p.get("error_of_error", 0) for p in line]]
+            axis.errorbar([p["seconds"] for p in line], errors, yerr=bars if any(map(any, bars)) else None,
+                          fmt=markers[number % len(markers)], label=knob, markersize=5, elinewidth=0.7, linestyle="none")
         if title.startswith("ranges"):
             best = front([p for p in members if p["quantity"] == "mean delta"])
             axis.plot([p["seconds"] for p in best], [max(p["error"], FLOOR) for p in best], "k-", linewidth=0.8, label="Pareto front")
@@ -273,6 +304,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
     parser.add_argument("--seeds", type=int, default=2, help="packings that times and errors are averaged over")
+    parser.add_argument("--packings", type=int, default=12, help="packings of each setting of a simulator")
     parser.add_argument("--repetitions", type=int, default=200, help="samples of contacts of each size")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
     options = parser.parse_args()
@@ -284,8 +316,8 @@ def main():
             packings.append(bench.folder / f"cd1-{seed}.h5")
             bench.run("simulate", "--protocol", "cd1", "--seed", seed, "-o", packings[-1])
         for section in [lambda: linear_programs(bench, packings), lambda: accuracy_levels(bench, packings),
-                        lambda: samples(bench, packings[0], options.repetitions),
-                        lambda: simulators(bench, range(options.seeds)), lambda: perturbations(bench, packings[0])]:
+                        lambda: samples(bench, packings, options.repetitions),
+                        lambda: simulators(bench, range(options.packings)), lambda: perturbations(bench, packings[0])]:
             section()
             save(bench.points, options.out)  # what is done stays if the rest is interrupted
         bench.say("")

@@ -244,30 +244,44 @@ class Verifier {
     check_estimate(ranges_.sample_T, delta_T, "delta_T");
   }
 
-  /// The mean of a sample; its interval by the variance of pairs, Σ (x_i − x_j)² / 2K(K − 1).
+  /// The mean of a sample. Moments by pairs: Σ (x_i − x_j)² = 2K(K − 1) s²,
+  /// Σ (x_i − x_j)² (x_i + x_j − 2 mean) = 2K² γ s³. An end of the interval is put into the equation of
+  /// contact_choice.h.
   void check_estimate(const SampleEstimate& stored, const std::vector<double>& values,
                       const std::string& name) {
     const auto count = static_cast<double>(values.size());
     const double left_out = 1 - count / packing_.contact_count();
     double sum = 0;
     double pairs = 0;
-    for (const double a : values) {
-      sum += a;
-      for (const double b : values) pairs += (a - b) * (a - b);
-    }
+    double leaning = 0;
+    for (const double a : values) sum += a;
     const double mean = values.empty() ? ForceRanges::kNaN : sum / count;
-    const double variance = pairs / (2 * count * (count - 1));
-    double half = left_out > 0 ? ForceRanges::kNaN : 0;
-    if (left_out > 0 && count > 1 && std::isfinite(mean)) {
-      const boost::math::students_t student(count - 1);
-      half = boost::math::quantile(boost::math::complement(student, (1 - kConfidence) / 2)) *
-             std::sqrt(variance * left_out / count);
+    for (const double a : values) {
+      for (const double b : values) {
+        pairs += (a - b) * (a - b);
+        leaning += (a - b) * (a - b) * (a + b - 2 * mean);
+      }
+    }
+    const double s = std::sqrt(pairs / (2 * count * (count - 1)));
+    const bool has_interval = left_out > 0 && count >= kFewestForInterval && std::isfinite(mean);
+    if (has_interval && s > 0) {
+      const double skewness = leaning / (2 * count * count * s * s * s);
+      const double quantile = boost::math::quantile(
+          boost::math::complement(boost::math::students_t(count - 1), (1 - kConfidence) / 2));
+      const auto transformed = [&](double end) {
+        const double w = (mean - end) / (s * std::sqrt(left_out));
+        return w + skewness * w * w / 3 + skewness * skewness * w * w * w / 27 + skewness / (6 * count);
+      };
+      equal(transformed(stored.low) * std::sqrt(count), quantile, "lower end of mean_" + name);
+      equal(transformed(stored.high) * std::sqrt(count), -quantile, "upper end of mean_" + name);
+    } else {
+      const double end = has_interval || left_out == 0 ? mean : ForceRanges::kNaN;
+      equal(stored.low, end, "lower end of mean_" + name);
+      equal(stored.high, end, "upper end of mean_" + name);
     }
     const double band = std::sqrt(-std::log((1 - kConfidence) / 2) / 2 *
                                   (1 / count - (1 - 1 / count) / packing_.contact_count()));
     equal(stored.mean, mean, "mean_" + name);
-    equal(stored.low, mean - half, "lower end of mean_" + name);
-    equal(stored.high, mean + half, "upper end of mean_" + name);
     equal(stored.band, std::isnan(mean) ? mean : (left_out > 0 ? band : 0), "band_" + name);
   }
 
