@@ -46,6 +46,7 @@ Tally plain_glpk(const ForcePolytope& polytope, Formulation formulation, Start s
     settings.feasibility = options.feasibility;
     settings.optimality = options.optimality;
     settings.keep_factors = start == Start::kLastOptimum;
+    if (settings.keep_factors) settings.iteration_limit = 20 * block.set.dim() + 200;
     const std::vector<Objective> objectives = natural_objectives(polytope, block);
     std::vector<std::size_t> order(objectives.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -59,10 +60,17 @@ Tally plain_glpk(const ForcePolytope& polytope, Formulation formulation, Start s
       layout->set_objective(*problem, objective);
       if (start == Start::kFirstVertex) layout->set_start(*problem, block.lightest);
       if (start == Start::kScratch) problem->advanced_basis();
-      if (layout->interpret(problem->solve(settings)) != LpStatus::kOptimal)
-        throw std::runtime_error("GLPK: a solve failed");
-      ++tally.solves;
+      GlpkProblem::Result result = problem->solve(settings);
       tally.pivots += problem->pivots();
+      if (result == GlpkProblem::Result::kLimit) {  // old factors can keep GLPK at an optimum for ever
+        GlpkProblem::Settings anew = settings;
+        anew.keep_factors = false;
+        anew.iteration_limit = options.iteration_limit;
+        result = problem->solve(anew);
+        tally.pivots += problem->pivots();
+      }
+      if (layout->interpret(result) != LpStatus::kOptimal) throw std::runtime_error("GLPK: a solve failed");
+      ++tally.solves;
       const Vertex vertex = compute_vertex(block.set, layout->read_basis(*problem));
       for (const auto& [index, coefficient] : objective.on_edges) optima[i] += coefficient * vertex.x[index];
       // The edge formulation alone has the objective without a constant term.

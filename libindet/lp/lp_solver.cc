@@ -1,5 +1,7 @@
 #include "indet/lp/lp_solver.h"
 
+#include <algorithm>
+
 #include "indet/base/error.h"
 #include "indet/lp/layout.h"
 
@@ -10,8 +12,12 @@ GlpkProblem::Method other(GlpkProblem::Method method) {
   return method == GlpkProblem::Method::kPrimal ? GlpkProblem::Method::kDual : GlpkProblem::Method::kPrimal;
 }
 
+/// Pivots before old factors are given up: rounding in them can keep GLPK at an optimum for ever. Solves take
+/// about as many pivots as there are dimensions, seldom twice as many.
+int going_on_limit(int dim) { return 20 * dim + 200; }
+
 /// The rungs of the ladder.
-enum Rung : int { kWarm, kWarmOther, kCold, kPresolved, kRungs };
+enum Rung : int { kGoOn, kWarm, kWarmOther, kCold, kPresolved, kRungs };
 
 }  // namespace
 
@@ -49,17 +55,20 @@ struct LpSolver::Impl {
   std::unique_ptr<GlpkProblem> problem;
   Basis factorised;  ///< where GLPK stands, with factors
 
-  GlpkProblem::Settings settings(int rung, bool keep_factors) const {
+  GlpkProblem::Settings settings(int rung) const {
     GlpkProblem::Settings result;
-    result.keep_factors = keep_factors;
+    result.keep_factors = rung == kGoOn;
     result.method = rung == kWarmOther ? other(layout->warm_method()) : layout->warm_method();
     result.feasibility = options.feasibility;
     result.optimality = options.optimality;
     result.iteration_limit = options.iteration_limit;
+    if (rung == kGoOn) result.iteration_limit = std::min(result.iteration_limit, going_on_limit(set.dim()));
     result.time_limit = options.time_limit;
     result.presolve = rung == kPresolved;
     return result;
   }
+
+  bool stands_at(const Basis& start) const { return problem && problem->is_alive() && start == factorised; }
 
   /// One rung; kFailed if it brings nothing.
   LpStatus attempt(int rung, const Objective& objective, const Basis& start, std::span<const int> held,
@@ -70,8 +79,7 @@ struct LpSolver::Impl {
     }
     layout->set_objective(*problem, objective);
     layout->hold(*problem, held, true);
-    const bool goes_on = rung == kWarm && start == factorised;
-    if (goes_on) {
+    if (rung == kGoOn) {
       // GLPK stands at the start.
     } else if (rung == kWarm || rung == kWarmOther) {
       layout->set_start(*problem, start);
@@ -79,10 +87,10 @@ struct LpSolver::Impl {
       problem->advanced_basis();
     }
     if (rung == kPresolved) problem->scale(true);
-    const GlpkProblem::Result result = problem->solve(settings(rung, goes_on));
+    const GlpkProblem::Result result = problem->solve(settings(rung));
     answer.pivots += problem->pivots();
     answer.basis = layout->read_basis(*problem);
-    factorised = answer.basis;
+    factorised = rung == kPresolved ? Basis() : answer.basis;
     if (rung == kPresolved) problem->scale(false);
     layout->hold(*problem, held, false);
     const LpStatus status = layout->interpret(result);
@@ -99,7 +107,8 @@ LpSolver::~LpSolver() = default;
 LpAnswer LpSolver::maximise(const Objective& objective, const Basis& start, std::span<const int> held) {
   LpAnswer answer;
   const bool has_start = static_cast<int>(start.size()) == impl_->set.dim() && !start.empty();
-  for (int rung = has_start ? kWarm : kCold; rung < kRungs; ++rung) {
+  const int first = !has_start ? kCold : impl_->stands_at(start) ? kGoOn : kWarm;
+  for (int rung = first; rung < kRungs; ++rung) {
     ++answer.attempts;
     try {
       answer.status = impl_->attempt(rung, objective, start, held, answer);
