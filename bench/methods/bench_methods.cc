@@ -3,12 +3,13 @@
 //   bench_methods METHOD P.h5 [TOLERANCE]       prints one JSON document; the tolerance is that of GLPK
 //
 // Seconds are CPU time of the thread that does all the work. They begin when the polytope is known, whose
-// time is given apart: all methods share it.
+// time is given apart: all methods share it. Memory is the largest that the process held, in MB.
 
 #include <time.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,15 @@ double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The largest memory that this program has held, in MB (Linux).
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+  }
+  return std::nan("");
 }
 
 struct Job {
@@ -151,6 +161,7 @@ int measure(const NamedMethod& method, const std::string& file, const LpOptions&
   result["solves"] = tally->solves;
   result["pivots"] = tally->pivots;
   result["failures"] = tally->failures;
+  result["memory"] = peak_memory();
   result["optima"] = tally->optima;
   result["raw"] = tally->raw;
   std::cout << result.dump() << '\n';

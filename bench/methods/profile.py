@@ -4,12 +4,14 @@
     bench/methods/profile.py [--build build/release] [--repeat 20] P.h5
 
 Shares of the whole program, its start included, come from perf (the libraries in which samples fall). The search is split
-by what a solve costs that starts from its optimum, so makes no pivot: GLPK's set-up and factorisation. The least is pivots x the multiplications and additions that
-change a dense (2M - d) x d tableau, at the rate at which this machine multiplies matrices.
+by what a solve costs that starts from its optimum, so makes no pivot: GLPK's set-up, and factorisation where it does not go on
+from where GLPK stands. The least is pivots x the multiplications and additions that change a dense (2M - d) x d tableau, at the
+rate at which this machine multiplies matrices.
 """
 import argparse
 import collections
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -25,7 +27,8 @@ def shares(command, repeat, folder):
     data = folder / "perf.data"
     for _ in range(repeat):
         subprocess.run(["perf", "record", "-q", "-F", "5000", "-o", data, "--", *command], check=True,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                       env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})  # its idle threads would be most of the samples
         report = subprocess.run(["perf", "report", "-i", data, "--stdio", "--no-children", "-F", "sample,dso"],
                                 check=True, capture_output=True, text=True).stdout
         for line in report.splitlines():
@@ -58,14 +61,17 @@ def main():
             parts = shares(command, options.repeat, folder)
         total = sum(run["seconds"].values())
         search = run["seconds"]["ranges"] + run["seconds"]["states"]
-        start = run["solves"] * costs["solve_without_pivots_seconds"]
+        continued = round(costs["going_on"][accuracy] * run["solves"])
+        setup = run["solves"] * costs["going_on_seconds"]
+        factors = (run["solves"] - continued) * (costs["start_seconds"] - costs["going_on_seconds"])
         vertices = run["solves"] * costs["vertex_seconds"]
-        pivots = search - start - vertices
+        pivots = search - setup - factors - vertices
         print(f"--accuracy {accuracy}: {total:.4f} s ({', '.join(f'{k} {v:.4f}' for k, v in run['seconds'].items())})")
         for part, share in parts.items():
             print(f"  {part:<34}{100 * share:6.1f} % of the program's samples")
-        print(f"  {run['solves']} solves: set-up and first factorisation {start:.4f} s "
-              f"({1e6 * start / run['solves']:.0f} us each), vertices {vertices:.4f} s")
+        print(f"  {run['solves']} solves: GLPK's set-up {setup:.4f} s ({1e6 * costs['going_on_seconds']:.0f} us each), "
+              f"{run['solves'] - continued} first factorisations {factors:.4f} s "
+              f"({1e6 * (costs['start_seconds'] - costs['going_on_seconds']):.0f} us each), vertices {vertices:.4f} s")
         print(f"  {run['pivots']} pivots, and proofs: {pivots:.4f} s ({1e6 * pivots / run['pivots']:.1f} us each)")
         least = run["pivots"] * rows / costs["product_flops_per_second"]
         print(f"  least: {run['pivots']} x {rows} flops at {costs['product_flops_per_second'] / 1e9:.1f} Gflop/s = "

@@ -116,6 +116,7 @@ LpAnswer LpSolver::maximise(const Objective& objective, const Basis& start, std:
       impl_->problem.reset();
       answer.status = LpStatus::kFailed;
     }
+    answer.continued = rung == kGoOn;
     if (answer.status != LpStatus::kFailed) break;
   }
   if (answer.status != LpStatus::kOptimal) answer.basis.clear();

@@ -14,7 +14,8 @@ struct LpAnswer {
   LpStatus status = LpStatus::kFailed;
   Basis basis;  ///< d inequalities, if optimal
   std::int64_t pivots = 0;
-  int attempts = 0;  ///< ways that were tried
+  int attempts = 0;        ///< ways that were tried
+  bool continued = false;  ///< from the factors of the question before
 };
 
 /// Maximises linear objectives over one FeasibleSet, from given start vertices: what the search for all

@@ -21,6 +21,9 @@ namespace {
 /// Entries of the pivot column below this (dimensionless) are rounding of a zero: their rows stay as they
 /// are.
 constexpr double kZero = 1e-14;
+/// Updates of the weights before they are computed anew, which costs as much as a pivot. Errors made where an
+/// edge is long stay when it is short again.
+constexpr int kWeightUpdates = 32;
 /// The pivots of an exchange may not be smaller than this beside the largest.
 constexpr double kSingular = 1e-11;
 
@@ -79,7 +82,7 @@ bool Tableau::move_to(const Basis& basis) {
   }
   if (rows.empty()) {
     recompute_slacks();
-    recompute_weights();  // errors made where edges were long stay when they are short again
+    recompute_weights();
     return true;
   }
   // An exchange of m inequalities multiplies (K − d) × m × (d − m), factorising anew (K − d) × d × d / 2.
@@ -151,6 +154,7 @@ void Tableau::pivot(int r, int q) {
     weights_[q] = std::max(leaving * inverse * inverse, 1.0);
   }
   rates_.row(r) = row_.transpose();
+  if (with_weights_ && ++weight_updates_ >= kWeightUpdates) recompute_weights();
   slacks_[r] = slack;
   std::swap(slack_[static_cast<std::size_t>(r)], active_[static_cast<std::size_t>(q)]);
   place_[static_cast<std::size_t>(slack_[static_cast<std::size_t>(r)])] = {r, -1};
@@ -170,6 +174,7 @@ void Tableau::recompute_slacks() {
 }
 
 void Tableau::recompute_weights() {
+  weight_updates_ = 0;
   if (with_weights_) weights_ = (1 + rates_.colwise().squaredNorm().transpose().array()).matrix();
 }
 

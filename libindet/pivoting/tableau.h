@@ -70,6 +70,7 @@ class Tableau {
 
   const FeasibleSet& set_;
   bool with_weights_;
+  int weight_updates_ = 0;
   Eigen::VectorXd probe_;  ///< s = S u
   std::vector<int> active_, slack_;
   std::vector<Place> place_;  ///< K

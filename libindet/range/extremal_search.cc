@@ -46,6 +46,24 @@ struct Record {
   Basis proof;
 };
 
+/// What the solvers had to do.
+struct Work {
+  std::int64_t solves = 0;
+  std::int64_t continued = 0;
+  std::int64_t pivots = 0;
+
+  void add(const LpAnswer& answer) {
+    ++solves;
+    continued += answer.continued ? 1 : 0;
+    pivots += answer.pivots;
+  }
+  void operator+=(const Work& other) {
+    solves += other.solves;
+    continued += other.continued;
+    pivots += other.pivots;
+  }
+};
+
 class Search {
  public:
   Search(const FeasibleSet& set, const std::vector<Component>& components, const Eigen::VectorXd& weight,
@@ -89,8 +107,7 @@ class Search {
   struct Step {
     std::int64_t objective = -1;
     LpStatus status = LpStatus::kFailed;
-    std::int64_t solves = 0;
-    std::int64_t pivots = 0;
+    Work work;
     bool settles_state = false;  ///< the vertex is the canonical state of `objective`
     bool unique = false;
     std::optional<Visit> visited;
@@ -152,8 +169,7 @@ class Search {
     std::vector<int> ids(steps.size(), -1);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       Step& step = steps[i];
-      solves_ += step.solves;
-      pivots_ += step.pivots;
+      work_ += step.work;
       paper_ += step.paper;
       if (step.status == LpStatus::kUnbounded) record(step.objective).unbounded = true;
       if (!step.visited) continue;
@@ -281,8 +297,7 @@ class Search {
     }
     step.objective = objective;
     step.status = answer.status;
-    step.solves = 1;
-    step.pivots = answer.pivots;
+    step.work.add(answer);
     return step;
   }
 
@@ -326,8 +341,8 @@ class Search {
       step.findings.front().optimal = true;  // as the method says; the residual tells whether it is right
     }
     step.objective = objective;
-    step.solves = 1;
-    step.pivots = walk.steps;
+    step.work.solves = 1;
+    step.work.pivots = walk.steps;
     step.paper.walks[static_cast<std::size_t>(walk.end)] = 1;
     step.paper.points = walk.steps + 1;
     step.paper.unexpected = walk.unexpected;
@@ -356,13 +371,11 @@ class Search {
     std::vector<int> held = known.held;
     Basis basis = vertices_[static_cast<std::size_t>(known.vertex)].basis;
     Step step;
-    std::int64_t solves = 0;
-    std::int64_t pivots = 0;
+    Work work;
     bool found = true;
     for (const Objective* functional : {&examiner_.lightness(), &examiner_.generic()}) {
       const LpAnswer answer = solver(place).maximise(*functional, basis, held);
-      ++solves;
-      pivots += answer.pivots;
+      work.add(answer);
       found = answer.status == LpStatus::kOptimal;
       if (!found) break;
       basis = answer.basis;
@@ -386,19 +399,17 @@ class Search {
     if (found) {
       step = visit(basis);
       step.settles_state = true;
-      step.unique = !examiner_.has_free_edge(*step.visited, known.held) &&
-                    is_point(place, basis, known.held, solves, pivots);
+      step.unique =
+          !examiner_.has_free_edge(*step.visited, known.held) && is_point(place, basis, known.held, work);
     }
     step.objective = objective;
-    step.solves = solves;
-    step.pivots = pivots;
+    step.work = work;
     return step;
   }
 
   /// True if the face {x_k = 0, k ∈ held} is the given vertex alone: the generic functional is constant on
   /// it. Asked only at degenerate vertices.
-  bool is_point(Place& place, const Basis& basis, const std::vector<int>& held, std::int64_t& solves,
-                std::int64_t& pivots) {
+  bool is_point(Place& place, const Basis& basis, const std::vector<int>& held, Work& work) {
     Objective opposite = examiner_.generic();
     opposite.along_z *= -1;
     for (auto& [index, coefficient] : opposite.on_edges) coefficient *= -1;
@@ -406,8 +417,7 @@ class Search {
     for (const Objective* functional :
          std::initializer_list<const Objective*>{&examiner_.generic(), &opposite}) {
       const LpAnswer answer = solver(place).maximise(*functional, basis, held);
-      ++solves;
-      pivots += answer.pivots;
+      work.add(answer);
       if (answer.status != LpStatus::kOptimal) return false;
       values.push_back(examiner_.generic().along_z.dot(compute_vertex(set_, answer.basis).z));
     }
@@ -416,8 +426,9 @@ class Search {
 
   SearchResult result() {
     SearchResult result;
-    result.solves = solves_;
-    result.pivots = pivots_;
+    result.solves = work_.solves;
+    result.continued = work_.continued;
+    result.pivots = work_.pivots;
     result.paper = paper_;
     std::vector<int> number(vertices_.size(), -1);
     for (std::int64_t objective = 0; objective < static_cast<std::int64_t>(records_.size()); ++objective) {
@@ -449,8 +460,7 @@ class Search {
   NeighbourSearch walker_;
   std::vector<Record> records_;
   std::vector<Vertex> vertices_;  ///< without their factors
-  std::int64_t solves_ = 0;
-  std::int64_t pivots_ = 0;
+  Work work_;
   PaperWork paper_;
   std::array<Place, kRound> places_;
   std::int64_t first_open_ = 0;  ///< No objective before is open.

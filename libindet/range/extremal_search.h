@@ -45,6 +45,7 @@ struct SearchResult {
   std::vector<Extremum> minimum, maximum;  ///< one a component; kOpen where not asked for
   std::vector<Vertex> vertices;            ///< those that some extremum points to, without their factors
   std::int64_t solves = 0;
+  std::int64_t continued = 0;  ///< solves that began with the factors of the one before (kLp)
   std::int64_t pivots = 0;
   PaperWork paper;           ///< of kPivotingPaper: its walks
   double state_seconds = 0;  ///< of the time, what the canonical states took
