@@ -31,9 +31,9 @@ TEST(Examiner, EdgesOfAFaceAtADegenerateVertex) {
     bool has_edge;
   };
   // Opposite faces of the pyramid meet in the apex alone, neighbours in an edge.
-  for (const Case& c : {Case{{0, 1, 2}, {0, 1}, false}, Case{{0, 2, 3}, {0, 1}, false},
-                        Case{{1, 2, 3}, {0, 1}, false}, Case{{0, 1, 2}, {0, 2}, true},
-                        Case{{0, 1, 2}, {1, 2}, true}, Case{{0, 2, 3}, {0}, true}}) {
+  for (const Case& c :
+       {Case{{0, 1, 2}, {0, 1}, false}, Case{{0, 2, 3}, {0, 1}, false}, Case{{1, 2, 3}, {0, 1}, false},
+        Case{{0, 1, 2}, {0, 2}, true}, Case{{0, 1, 2}, {1, 2}, true}, Case{{0, 2, 3}, {0}, true}}) {
     Visit visit = examiner.visit(c.basis);
     EXPECT_NEAR(visit.vertex.z.norm(), 0, 1e-15);
     EXPECT_EQ(examiner.has_free_edge(visit, c.held), c.has_edge)
