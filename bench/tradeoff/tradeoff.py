@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What accuracy costs: the time and the error of every setting that trades one for the other, on one plot.
 
-    bench/tradeoff/tradeoff.py [--build build/release] [--seeds 2] [--packings 12] [--repetitions 200] [--out DIR]
+    bench/tradeoff/tradeoff.py [--build build/release] [--seeds 2] [--packings 12] [--repetitions 2000] [--out DIR]
 
 Knobs: the tolerance of the linear programs, with GLPK's own numbers (raw) and with those recomputed from its bases; the
 formulation, the method and its pivot rule; --accuracy; --contacts sample:K; tolerance and sweeps of contact dynamics;
@@ -326,7 +326,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
     parser.add_argument("--seeds", type=int, default=2, help="packings that times and errors are averaged over")
     parser.add_argument("--packings", type=int, default=12, help="packings of each setting of a simulator")
-    parser.add_argument("--repetitions", type=int, default=200, help="samples of contacts of each size")
+    parser.add_argument("--repetitions", type=int, default=2000, help="samples of contacts of each size")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
