@@ -288,7 +288,8 @@ def draw(points, path):
     figure, axes = plt.subplots(1, 3, figsize=(15, 5.2))
     markers = "osv^D<>PX*hp"
     for axis, (title, quantities) in zip(axes, groups):
-        members = [p for p in points if p["quantity"] in quantities]
+        is_exact = title.startswith("ranges")  # the finest setting of a simulator is the reference, not without error
+        members = [p for p in points if p["quantity"] in quantities and (is_exact or p["error"] > 0)]
         for number, knob in enumerate(dict.fromkeys(p["knob"] for p in members)):
             line = [p for p in members if p["knob"] == knob]
             errors = [max(p["error"], FLOOR) for p in line]
@@ -297,9 +298,10 @@ def draw(points, path):
                     [p.get("error_of_error", 0) for p in line]]
             axis.errorbar([p["seconds"] for p in line], errors, yerr=bars if any(map(any, bars)) else None,
                           fmt=markers[number % len(markers)], label=knob, markersize=5, elinewidth=0.7, linestyle="none")
-        if title.startswith("ranges"):
-            best = [p for p in members if p["pareto"]]
-            axis.plot([p["seconds"] for p in best], [max(p["error"], FLOOR) for p in best], "k-", linewidth=0.8, label="Pareto front")
+        if is_exact:
+            best = sorted((p for p in members if p["pareto"]), key=lambda p: p["seconds"])
+            axis.step([p["seconds"] for p in best], [max(p["error"], FLOOR) for p in best], "k-", where="post", linewidth=0.8,
+                      label="Pareto front")
         axis.set(xlabel="seconds", ylabel="relative error", title=title)
         if members:
             axis.set(xscale="log", yscale="log")
