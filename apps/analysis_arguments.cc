@@ -1,4 +1,4 @@
-#include "analysis_arguments.h"
+#include "apps/analysis_arguments.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "configuration.h"
+#include "apps/configuration.h"
 
 namespace indet::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "command.h"
-#include "indet/range/analyze.h"
+#include "apps/command.h"
+#include "libindet/range/analyze.h"
 
 namespace indet::app {
 

@@ -1,4 +1,4 @@
-#include "indet/range/analyze.h"
+#include "libindet/range/analyze.h"
 
 #include <fmt/format.h>
 
@@ -13,15 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "analysis_arguments.h"
-#include "command.h"
-#include "indet/base/tolerances.h"
-#include "indet/io/packing_file.h"
-#include "indet/io/ranges_file.h"
-#include "indet/lp/glpk_problem.h"
-#include "indet/verify/exact_check.h"
-#include "paper_work.h"
-#include "trial_reading.h"
+#include "apps/analysis_arguments.h"
+#include "apps/command.h"
+#include "apps/paper_work.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/lp/glpk_problem.h"
+#include "libindet/verify/exact_check.h"
 
 namespace indet::app {
 namespace {

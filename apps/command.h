@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/progress.h"
+#include "libindet/base/progress.h"
 
 namespace indet::app {
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis_arguments.h"
-#include "command.h"
-#include "configuration.h"
-#include "indet/io/packing_file.h"
-#include "indet/range/analyze.h"
-#include "paper_work.h"
-#include "trial_reading.h"
+#include "apps/analysis_arguments.h"
+#include "apps/command.h"
+#include "apps/configuration.h"
+#include "apps/paper_work.h"
+#include "apps/trial_reading.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/range/analyze.h"
 
 namespace indet::app {
 namespace {

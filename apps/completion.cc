@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "command.h"
+#include "apps/command.h"
 
 namespace indet::app {
 namespace {

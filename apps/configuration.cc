@@ -1,4 +1,4 @@
-#include "configuration.h"
+#include "apps/configuration.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet::app {
 namespace {

@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "configuration.h"
-#include "ensemble_output.h"
-#include "indet/base/error.h"
-#include "indet/ensemble/run.h"
-#include "indet/lp/glpk_problem.h"
-#include "indet/sim/scene_toml.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/configuration.h"
+#include "apps/ensemble/units/run.h"
+#include "apps/ensemble_output.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
+#include "libindet/lp/glpk_problem.h"
+#include "libsim/scene_toml.h"
 
 namespace indet::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "ensemble_output.h"
+#include "apps/ensemble_output.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "indet/ensemble/ensemble_file.h"
-#include "indet/ensemble/figures.h"
+#include "apps/ensemble/presentation/figures.h"
+#include "apps/ensemble/tables/ensemble_file.h"
 
 namespace indet::app {
 namespace {

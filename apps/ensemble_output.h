@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "command.h"
-#include "indet/ensemble/plan.h"
-#include "indet/ensemble/run.h"
-#include "indet/ensemble/table.h"
+#include "apps/command.h"
+#include "apps/ensemble/tables/table.h"
+#include "apps/ensemble/units/plan.h"
+#include "apps/ensemble/units/run.h"
 
 namespace indet::app {
 

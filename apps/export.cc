@@ -9,13 +9,13 @@
 #include <string>
 #include <string_view>
 
-#include "command.h"
-#include "indet/base/error.h"
-#include "indet/io/csv_writer.h"
-#include "indet/io/ranges_file.h"
-#include "indet/io/table.h"
-#include "indet/report/packing_picture.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
+#include "libindet/io/csv_writer.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/io/table.h"
+#include "libindet/drawing/packing_picture.h"
 
 namespace indet::app {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "configuration.h"
-#include "indet/io/balance.h"
-#include "indet/io/csv_reader.h"
-#include "indet/io/lammps_reader.h"
-#include "indet/io/packing_file.h"
+#include "apps/command.h"
+#include "apps/configuration.h"
+#include "libindet/io/balance.h"
+#include "libindet/io/csv_reader.h"
+#include "libindet/io/lammps_reader.h"
+#include "libindet/io/packing_file.h"
 
 namespace indet::app {
 namespace {

@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "indet/ensemble/comparison.h"
-#include "indet/ensemble/ensemble_file.h"
-#include "indet/io/balance.h"
-#include "indet/io/packing_file.h"
-#include "indet/io/ranges_file.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/ensemble/presentation/comparison.h"
+#include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/trial_reading.h"
+#include "libindet/io/balance.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/io/ranges_file.h"
 
 namespace indet::app {
 namespace {

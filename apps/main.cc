@@ -7,12 +7,12 @@
 #include <new>
 #include <string>
 
-#include "command.h"
-#include "configuration.h"
-#include "indet/base/error.h"
-#include "indet/base/version.h"
-#include "memory_limit.h"
-#include "terminal.h"
+#include "apps/command.h"
+#include "apps/configuration.h"
+#include "apps/memory_limit.h"
+#include "apps/terminal.h"
+#include "libindet/base/error.h"
+#include "libindet/base/version.h"
 
 namespace indet::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "memory_limit.h"
+#include "apps/memory_limit.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

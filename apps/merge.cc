@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "command.h"
-#include "ensemble_output.h"
-#include "indet/base/error.h"
-#include "indet/ensemble/table.h"
-#include "indet/ensemble/unit_file.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/ensemble/tables/table.h"
+#include "apps/ensemble/units/unit_file.h"
+#include "apps/ensemble_output.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
 
 namespace indet::app {
 namespace {

@@ -1,8 +1,8 @@
-#include "paper_work.h"
+#include "apps/paper_work.h"
 
 #include <fmt/format.h>
 
-#include "command.h"
+#include "apps/command.h"
 
 namespace indet::app {
 

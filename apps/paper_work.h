@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "indet/range/paper_work.h"
+#include "libindet/range/paper_work.h"
 
 namespace indet::app {
 

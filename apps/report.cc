@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "indet/base/error.h"
-#include "indet/ensemble/html_report.h"
-#include "indet/io/ranges_file.h"
-#include "indet/report/packing_picture.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/ensemble/presentation/html_report.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/drawing/packing_picture.h"
 
 namespace indet::app {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "indet/base/error.h"
-#include "indet/ensemble/unit.h"
-#include "indet/io/sampling_file.h"
-#include "indet/sim/perturb_sampling.h"
-#include "sample_uniform.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/bridge/perturb_record.h"
+#include "apps/sample_uniform.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
+#include "libindet/io/sampling_file.h"
+#include "libsim/perturb_sampling.h"
 
 namespace indet::app {
 namespace {

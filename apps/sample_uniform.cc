@@ -1,4 +1,4 @@
-#include "sample_uniform.h"
+#include "apps/sample_uniform.h"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/ensemble/uniform_record.h"
-#include "indet/io/ranges_file.h"
-#include "indet/io/sampling_file.h"
-#include "indet/range/analyze.h"
-#include "indet/sampling/placement.h"
-#include "indet/sampling/shape.h"
-#include "indet/sampling/volume.h"
+#include "apps/bridge/uniform_record.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/io/sampling_file.h"
+#include "libindet/range/analyze.h"
+#include "libindet/sampling/placement.h"
+#include "libindet/sampling/shape.h"
+#include "libindet/sampling/volume.h"
 
 namespace indet::app {
 namespace {

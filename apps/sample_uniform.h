@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "command.h"
-#include "indet/packing/packing.h"
-#include "indet/sampling/uniform_sampling.h"
+#include "apps/command.h"
+#include "libindet/packing/packing.h"
+#include "libindet/sampling/uniform_sampling.h"
 
 namespace indet::app {
 

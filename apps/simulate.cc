@@ -1,4 +1,4 @@
-#include "indet/sim/simulate.h"
+#include "libsim/simulate.h"
 
 #include <fmt/format.h>
 
@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "indet/base/error.h"
-#include "indet/ensemble/simulation_values.h"
-#include "indet/io/simulation_file.h"
-#include "indet/sim/scene_toml.h"
-#include "trial_reading.h"
+#include "apps/bridge/simulation_values.h"
+#include "apps/command.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
+#include "libindet/io/simulation_file.h"
+#include "libsim/scene_toml.h"
 
 namespace indet::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "terminal.h"
+#include "apps/terminal.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "command.h"
+#include "apps/command.h"
 
 namespace indet::app {
 namespace {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "command.h"
-#include "indet/base/error.h"
-#include "indet/io/simulation_file.h"
-#include "indet/report/trajectory_picture.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/trial_reading.h"
+#include "libindet/base/error.h"
+#include "libindet/io/simulation_file.h"
+#include "libindet/drawing/trajectory_picture.h"
 
 namespace indet::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "trial_reading.h"
+#include "apps/trial_reading.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,11 +16,11 @@
 #include <iterator>
 #include <system_error>
 
-#include "indet/base/error.h"
-#include "indet/io/packing_file.h"
-#include "indet/io/ranges_file.h"
-#include "indet/io/sampling_file.h"
-#include "indet/io/simulation_file.h"
+#include "libindet/base/error.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/io/sampling_file.h"
+#include "libindet/io/simulation_file.h"
 
 namespace indet::app {
 namespace {

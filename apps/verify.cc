@@ -1,4 +1,4 @@
-#include "indet/verify/verify.h"
+#include "libindet/verify/verify.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
-#include "command.h"
-#include "indet/io/packing_file.h"
-#include "indet/io/ranges_file.h"
-#include "indet/verify/exact_check.h"
-#include "trial_reading.h"
+#include "apps/command.h"
+#include "apps/trial_reading.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/verify/exact_check.h"
 
 namespace indet::app {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "indet/sim/scene.h"
-#include "indet/sim/simulate.h"
-#include "indet/sim/static_solver.h"
+#include "libsim/scene.h"
+#include "libsim/simulate.h"
+#include "libsim/static_solver.h"
 
 /// Speed of the simulators, and the problems that bench/peers gives to other programs.
 ///

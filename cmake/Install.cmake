@@ -3,9 +3,8 @@ include(CMakePackageConfigHelpers)
 get_property(stages GLOBAL PROPERTY INDET_STAGES)
 install(TARGETS ${stages} EXPORT indetTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 get_property(folders GLOBAL PROPERTY INDET_STAGE_FOLDERS)
-foreach(entry IN LISTS folders)
-  string(REGEX MATCH "^(.*):([a-z]+)$" _ "${entry}")
-  install(DIRECTORY ${CMAKE_MATCH_1}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/indet/${CMAKE_MATCH_2}
+foreach(folder IN LISTS folders)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder}
     FILES_MATCHING PATTERN "*.h")
 endforeach()
 

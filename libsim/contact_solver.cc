@@ -1,4 +1,4 @@
-#include "indet/sim/contact_solver.h"
+#include "libsim/contact_solver.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "indet/sim/lanes.h"
-#include "indet/sim/sweep_order.h"
+#include "libsim/lanes.h"
+#include "libsim/sweep_order.h"
 
 namespace indet::sim {
 

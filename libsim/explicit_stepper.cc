@@ -1,4 +1,4 @@
-#include "indet/sim/explicit_stepper.h"
+#include "libsim/explicit_stepper.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "indet/sim/force_law.h"
-#include "indet/sim/lanes.h"
-#include "indet/sim/neighbours.h"
-#include "indet/sim/stepper.h"
+#include "libsim/force_law.h"
+#include "libsim/lanes.h"
+#include "libsim/neighbours.h"
+#include "libsim/stepper.h"
 
 namespace indet::sim {
 

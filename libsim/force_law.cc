@@ -1,4 +1,4 @@
-#include "indet/sim/force_law.h"
+#include "libsim/force_law.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "indet/sim/world.h"
+#include "libsim/world.h"
 
 namespace indet::sim {
 

@@ -1,4 +1,4 @@
-#include "indet/sim/implicit_stepper.h"
+#include "libsim/implicit_stepper.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "indet/sim/contact_solver.h"
-#include "indet/sim/force_law.h"
-#include "indet/sim/neighbours.h"
-#include "indet/sim/stepper.h"
+#include "libsim/contact_solver.h"
+#include "libsim/force_law.h"
+#include "libsim/neighbours.h"
+#include "libsim/stepper.h"
 
 namespace indet::sim {
 

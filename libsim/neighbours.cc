@@ -1,4 +1,4 @@
-#include "indet/sim/neighbours.h"
+#include "libsim/neighbours.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,13 +1,13 @@
-#include "indet/sim/perturb_sampling.h"
+#include "libsim/perturb_sampling.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "indet/base/error.h"
-#include "indet/base/random.h"
-#include "indet/base/worker_team.h"
+#include "libindet/base/error.h"
+#include "libindet/base/random.h"
+#include "libindet/base/worker_team.h"
 
 namespace indet::sim {
 namespace {

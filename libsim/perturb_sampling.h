@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/progress.h"
-#include "indet/packing/packing.h"
-#include "indet/sim/polish.h"
-#include "indet/sim/static_solver.h"
+#include "libindet/base/progress.h"
+#include "libindet/packing/packing.h"
+#include "libsim/polish.h"
+#include "libsim/static_solver.h"
 
 namespace indet::sim {
 

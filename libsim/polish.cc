@@ -1,4 +1,4 @@
-#include "indet/sim/polish.h"
+#include "libsim/polish.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::sim {
 

@@ -1,4 +1,4 @@
-#include "indet/sim/scene.h"
+#include "libsim/scene.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "indet/base/error.h"
-#include "indet/base/random.h"
+#include "libindet/base/error.h"
+#include "libindet/base/random.h"
 
 namespace indet::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/sim/world.h"
+#include "libsim/world.h"
 
 namespace indet::sim {
 

@@ -1,11 +1,11 @@
-#include "indet/sim/scene_toml.h"
+#include "libsim/scene_toml.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <optional>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet::sim {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "indet/sim/scene.h"
+#include "libsim/scene.h"
 
 namespace indet::sim {
 

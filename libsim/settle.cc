@@ -1,4 +1,4 @@
-#include "indet/sim/settle.h"
+#include "libsim/settle.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet::sim {
 namespace {

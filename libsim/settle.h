@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/progress.h"
-#include "indet/sim/stepper.h"
+#include "libindet/base/progress.h"
+#include "libsim/stepper.h"
 
 namespace indet::sim {
 

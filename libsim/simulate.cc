@@ -1,4 +1,4 @@
-#include "indet/sim/simulate.h"
+#include "libsim/simulate.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet::sim {
 namespace {

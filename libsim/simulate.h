@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "indet/sim/explicit_stepper.h"
-#include "indet/sim/implicit_stepper.h"
-#include "indet/sim/polish.h"
-#include "indet/sim/settle.h"
+#include "libsim/explicit_stepper.h"
+#include "libsim/implicit_stepper.h"
+#include "libsim/polish.h"
+#include "libsim/settle.h"
 
 namespace indet::sim {
 

@@ -1,10 +1,10 @@
-#include "indet/sim/static_solver.h"
+#include "libsim/static_solver.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "indet/sim/contact_solver.h"
-#include "indet/sim/polish.h"
+#include "libsim/contact_solver.h"
+#include "libsim/polish.h"
 
 namespace indet::sim {
 namespace {

@@ -1,11 +1,11 @@
-#include "indet/sim/world.h"
+#include "libsim/world.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet::sim {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::sim {
 

@@ -17,11 +17,11 @@
 #include <string>
 #include <vector>
 
-#include "indet/io/packing_file.h"
-#include "indet/range/analyze.h"
-#include "indet/range/extremal_search.h"
-#include "indet/range/paper_start.h"
-#include "rivals.h"
+#include "bench/methods/rivals.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/range/analyze.h"
+#include "libindet/range/extremal_search.h"
+#include "libindet/range/paper_start.h"
 
 namespace indet::bench {
 namespace {

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "indet/io/packing_file.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/pivoting/tableau_solver.h"
-#include "indet/range/analyze.h"
-#include "indet/range/extremal_search.h"
-#include "rivals.h"
+#include "bench/methods/rivals.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/pivoting/tableau_solver.h"
+#include "libindet/range/analyze.h"
+#include "libindet/range/extremal_search.h"
 
 namespace indet::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "rivals.h"
+#include "bench/methods/rivals.h"
 
 namespace indet::bench {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "rivals.h"
+#include "bench/methods/rivals.h"
 
 namespace indet::bench {
 namespace {

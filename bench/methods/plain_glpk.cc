@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "indet/base/random.h"
-#include "indet/lp/layout.h"
-#include "indet/lp/vertex.h"
-#include "rivals.h"
+#include "bench/methods/rivals.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/layout.h"
+#include "libindet/lp/vertex.h"
 
 namespace indet::bench {
 

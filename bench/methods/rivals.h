@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "indet/lp/lp_solver.h"
-#include "indet/polytope/force_polytope.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/polytope/force_polytope.h"
 
 namespace indet::bench {
 

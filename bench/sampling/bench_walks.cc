@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/io/packing_file.h"
-#include "indet/sampling/uniform_sampling.h"
+#include "libindet/base/error.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/sampling/uniform_sampling.h"
 
 namespace indet {
 namespace {

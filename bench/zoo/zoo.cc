@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "indet/packing/validate.h"
-#include "indet/range/analyze.h"
-#include "support/extremes.h"
+#include "libindet/packing/validate.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/extremes.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 #include <bit>
 #include <cmath>

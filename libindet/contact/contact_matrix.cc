@@ -1,4 +1,4 @@
-#include "indet/contact/contact_matrix.h"
+#include "libindet/contact/contact_matrix.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 

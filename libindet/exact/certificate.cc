@@ -1,4 +1,4 @@
-#include "indet/exact/certificate.h"
+#include "libindet/exact/certificate.h"
 
 #include <algorithm>
 #include <cmath>

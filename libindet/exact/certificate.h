@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "indet/exact/contact_problem.h"
-#include "indet/exact/rational_solver.h"
+#include "libindet/exact/contact_problem.h"
+#include "libindet/exact/rational_solver.h"
 
 namespace indet::exact {
 

@@ -1,4 +1,4 @@
-#include "indet/exact/contact_basis.h"
+#include "libindet/exact/contact_basis.h"
 
 #include <algorithm>
 

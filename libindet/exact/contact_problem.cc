@@ -1,4 +1,4 @@
-#include "indet/exact/contact_problem.h"
+#include "libindet/exact/contact_problem.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "indet/exact/modular_lu.h"
-#include "indet/packing/packing.h"
+#include "libindet/exact/modular_lu.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::exact {
 

@@ -1,4 +1,4 @@
-#include "indet/exact/modular_lu.h"
+#include "libindet/exact/modular_lu.h"
 
 #include <algorithm>
 #include <limits>

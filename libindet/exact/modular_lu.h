@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "indet/exact/prime_field.h"
+#include "libindet/exact/prime_field.h"
 
 namespace indet::exact {
 

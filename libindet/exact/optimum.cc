@@ -1,4 +1,4 @@
-#include "indet/exact/optimum.h"
+#include "libindet/exact/optimum.h"
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "indet/exact/contact_basis.h"
+#include "libindet/exact/contact_basis.h"
 
 namespace indet::exact {
 

@@ -1,4 +1,4 @@
-#include "indet/exact/prime_field.h"
+#include "libindet/exact/prime_field.h"
 
 namespace indet::exact {
 

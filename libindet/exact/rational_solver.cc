@@ -1,4 +1,4 @@
-#include "indet/exact/rational_solver.h"
+#include "libindet/exact/rational_solver.h"
 
 #include <algorithm>
 #include <optional>

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "indet/exact/modular_lu.h"
+#include "libindet/exact/modular_lu.h"
 
 namespace indet::exact {
 

@@ -1,4 +1,4 @@
-#include "indet/io/balance.h"
+#include "libindet/io/balance.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/contact/contact_matrix.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/contact/contact_matrix.h"
 
 namespace indet {
 

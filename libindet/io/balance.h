@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "indet/io/imported_packing.h"
+#include "libindet/io/imported_packing.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/io/csv_reader.h"
+#include "libindet/io/csv_reader.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -12,9 +12,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "indet/base/error.h"
-#include "indet/io/table.h"
-#include "indet/packing/validate.h"
+#include "libindet/base/error.h"
+#include "libindet/io/table.h"
+#include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {

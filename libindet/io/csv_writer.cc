@@ -1,4 +1,4 @@
-#include "indet/io/csv_writer.h"
+#include "libindet/io/csv_writer.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/io/whole_file.h"
+#include "libindet/base/error.h"
+#include "libindet/io/whole_file.h"
 
 namespace indet {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "indet/packing/packing.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

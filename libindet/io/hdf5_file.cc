@@ -1,4 +1,4 @@
-#include "indet/io/hdf5_file.h"
+#include "libindet/io/hdf5_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,8 +14,8 @@
 #include <system_error>
 #include <utility>
 
-#include "indet/io/sha256.h"
-#include "indet/io/whole_file.h"
+#include "libindet/io/sha256.h"
+#include "libindet/io/whole_file.h"
 
 namespace indet {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/io/imported_packing.h"
+#include "libindet/io/imported_packing.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "indet/io/lammps_dump.h"
+#include "libindet/io/lammps_dump.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 #include <vector>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "indet/io/table.h"
+#include "libindet/io/table.h"
 
 namespace indet {
 

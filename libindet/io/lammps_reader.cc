@@ -1,4 +1,4 @@
-#include "indet/io/lammps_reader.h"
+#include "libindet/io/lammps_reader.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/io/lammps_dump.h"
-#include "indet/packing/validate.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/io/lammps_dump.h"
+#include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "indet/io/imported_packing.h"
+#include "libindet/io/imported_packing.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/io/packing_file.h"
+#include "libindet/io/packing_file.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -12,9 +12,9 @@
 #include <limits>
 #include <optional>
 
-#include "indet/base/error.h"
-#include "indet/base/version.h"
-#include "indet/packing/validate.h"
+#include "libindet/base/error.h"
+#include "libindet/base/version.h"
+#include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {

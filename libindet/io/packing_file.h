@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "indet/io/hdf5_file.h"
-#include "indet/packing/packing.h"
+#include "libindet/io/hdf5_file.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/io/ranges_file.h"
+#include "libindet/io/ranges_file.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

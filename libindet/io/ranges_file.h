@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "indet/io/packing_file.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

@@ -1,8 +1,8 @@
-#include "indet/io/sampling_file.h"
+#include "libindet/io/sampling_file.h"
 
 #include <fmt/format.h>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "indet/io/packing_file.h"
-#include "indet/packing/packing.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 

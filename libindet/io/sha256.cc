@@ -1,10 +1,10 @@
-#include "indet/io/sha256.h"
+#include "libindet/io/sha256.h"
 
 #include <openssl/evp.h>
 
 #include <array>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

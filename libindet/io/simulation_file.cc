@@ -1,8 +1,8 @@
-#include "indet/io/simulation_file.h"
+#include "libindet/io/simulation_file.h"
 
 #include <fmt/format.h>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "indet/io/packing_file.h"
-#include "indet/packing/packing.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 

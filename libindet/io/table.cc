@@ -1,4 +1,4 @@
-#include "indet/io/table.h"
+#include "libindet/io/table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

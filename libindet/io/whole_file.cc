@@ -1,4 +1,4 @@
-#include "indet/io/whole_file.h"
+#include "libindet/io/whole_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

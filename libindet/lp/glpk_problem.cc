@@ -1,4 +1,4 @@
-#include "indet/lp/glpk_problem.h"
+#include "libindet/lp/glpk_problem.h"
 
 #include <glpk.h>
 

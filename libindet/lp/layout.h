@@ -3,9 +3,9 @@
 #include <memory>
 #include <span>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/glpk_problem.h"
-#include "indet/lp/lp_solver.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/glpk_problem.h"
+#include "libindet/lp/lp_solver.h"
 
 namespace indet {
 

@@ -1,9 +1,9 @@
-#include "indet/lp/lp_solver.h"
+#include "libindet/lp/lp_solver.h"
 
 #include <algorithm>
 
-#include "indet/base/error.h"
-#include "indet/lp/layout.h"
+#include "libindet/base/error.h"
+#include "libindet/lp/layout.h"
 
 namespace indet {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "indet/base/tolerances.h"
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/maximiser.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/maximiser.h"
 
 namespace indet {
 

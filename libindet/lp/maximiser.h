@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "indet/lp/feasible_set.h"
+#include "libindet/lp/feasible_set.h"
 
 namespace indet {
 

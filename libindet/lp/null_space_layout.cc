@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "indet/lp/layout.h"
+#include "libindet/lp/layout.h"
 
 namespace indet {
 namespace {

@@ -1,11 +1,11 @@
-#include "indet/lp/vertex.h"
+#include "libindet/lp/vertex.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 

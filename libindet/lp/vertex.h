@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "indet/lp/feasible_set.h"
+#include "libindet/lp/feasible_set.h"
 
 namespace indet {
 

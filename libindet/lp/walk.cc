@@ -1,10 +1,10 @@
-#include "indet/lp/walk.h"
+#include "libindet/lp/walk.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

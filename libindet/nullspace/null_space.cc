@@ -1,4 +1,4 @@
-#include "indet/nullspace/null_space.h"
+#include "libindet/nullspace/null_space.h"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "indet/base/tolerances.h"
-#include "indet/nullspace/sparse_qr.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
 namespace {

@@ -1,4 +1,4 @@
-#include "indet/nullspace/sparse_qr.h"
+#include "libindet/nullspace/sparse_qr.h"
 
 #include <dlfcn.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 namespace {

@@ -1,9 +1,9 @@
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 namespace indet {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/index.h"
+#include "libindet/base/index.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/packing/validate.h"
+#include "libindet/packing/validate.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 

@@ -1,11 +1,11 @@
-#include "indet/pivoting/interior_start.h"
+#include "libindet/pivoting/interior_start.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-#include "indet/base/tolerances.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {

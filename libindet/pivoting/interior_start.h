@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "indet/lp/feasible_set.h"
+#include "libindet/lp/feasible_set.h"
 
 namespace indet {
 

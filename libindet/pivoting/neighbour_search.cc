@@ -1,10 +1,10 @@
-#include "indet/pivoting/neighbour_search.h"
+#include "libindet/pivoting/neighbour_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "indet/base/tolerances.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {

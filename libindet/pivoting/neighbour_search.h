@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/vertex.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/vertex.h"
 
 namespace indet {
 

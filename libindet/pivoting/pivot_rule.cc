@@ -1,4 +1,4 @@
-#include "indet/pivoting/pivot_rule.h"
+#include "libindet/pivoting/pivot_rule.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "indet/pivoting/tableau.h"
+#include "libindet/pivoting/tableau.h"
 
 namespace indet {
 

@@ -1,10 +1,10 @@
-#include "indet/pivoting/tableau.h"
+#include "libindet/pivoting/tableau.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 // The inner loops are compiled for wider registers too. Each element is computed by itself and without fused
 // multiply-add, so the width does not change a result.

@@ -1,4 +1,4 @@
-#include "indet/pivoting/tableau_solver.h"
+#include "libindet/pivoting/tableau_solver.h"
 
 #include <algorithm>
 #include <chrono>

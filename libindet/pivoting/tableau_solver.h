@@ -1,8 +1,8 @@
 #pragma once
 
-#include "indet/lp/lp_solver.h"
-#include "indet/pivoting/pivot_rule.h"
-#include "indet/pivoting/tableau.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/pivoting/pivot_rule.h"
+#include "libindet/pivoting/tableau.h"
 
 namespace indet {
 

@@ -1,12 +1,12 @@
-#include "indet/polytope/blocks.h"
+#include "libindet/polytope/blocks.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <numeric>
 
-#include "indet/base/tolerances.h"
-#include "indet/nullspace/sparse_qr.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
 namespace {

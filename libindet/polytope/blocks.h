@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "indet/contact/contact_matrix.h"
-#include "indet/lp/vertex.h"
-#include "indet/polytope/force_polytope.h"
+#include "libindet/contact/contact_matrix.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/polytope/force_polytope.h"
 
 namespace indet {
 

@@ -1,16 +1,16 @@
-#include "indet/polytope/force_polytope.h"
+#include "libindet/polytope/force_polytope.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/exact/certificate.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "indet/polytope/blocks.h"
-#include "indet/polytope/interior.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/exact/certificate.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "libindet/polytope/blocks.h"
+#include "libindet/polytope/interior.h"
 
 namespace indet {
 namespace {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "indet/contact/contact_matrix.h"
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/nullspace/null_space.h"
-#include "indet/packing/packing.h"
+#include "libindet/contact/contact_matrix.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/nullspace/null_space.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 

@@ -1,12 +1,12 @@
-#include "indet/polytope/interior.h"
+#include "libindet/polytope/interior.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
 
 namespace indet {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/lp_solver.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/lp_solver.h"
 
 namespace indet {
 

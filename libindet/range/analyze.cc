@@ -1,4 +1,4 @@
-#include "indet/range/analyze.h"
+#include "libindet/range/analyze.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,18 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/exact/certificate.h"
-#include "indet/lp/walk.h"
-#include "indet/polytope/force_polytope.h"
-#include "indet/polytope/interior.h"
-#include "indet/range/certify.h"
-#include "indet/range/enclosure.h"
-#include "indet/range/extremal_search.h"
-#include "indet/range/measures.h"
-#include "indet/range/paper_start.h"
-#include "indet/range/state_table.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/exact/certificate.h"
+#include "libindet/lp/walk.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/polytope/interior.h"
+#include "libindet/range/certify.h"
+#include "libindet/range/enclosure.h"
+#include "libindet/range/extremal_search.h"
+#include "libindet/range/measures.h"
+#include "libindet/range/paper_start.h"
+#include "libindet/range/state_table.h"
 
 namespace indet {
 namespace {

@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "indet/base/progress.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/packing/packing.h"
-#include "indet/range/contact_choice.h"
-#include "indet/range/force_ranges.h"
-#include "indet/range/method.h"
+#include "libindet/base/progress.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/contact_choice.h"
+#include "libindet/range/force_ranges.h"
+#include "libindet/range/method.h"
 
 namespace indet {
 

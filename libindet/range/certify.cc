@@ -1,11 +1,11 @@
-#include "indet/range/certify.h"
+#include "libindet/range/certify.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "indet/base/tolerances.h"
-#include "indet/contact/contact_matrix.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/contact/contact_matrix.h"
 
 namespace indet {
 

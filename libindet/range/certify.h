@@ -1,7 +1,7 @@
 #pragma once
 
-#include "indet/packing/packing.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/range/contact_choice.h"
+#include "libindet/range/contact_choice.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 namespace indet {
 

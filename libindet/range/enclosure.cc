@@ -1,4 +1,4 @@
-#include "indet/range/enclosure.h"
+#include "libindet/range/enclosure.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <map>
 #include <optional>
 
-#include "indet/base/tolerances.h"
-#include "indet/nullspace/sparse_qr.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
 namespace {

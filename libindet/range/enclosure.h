@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/packing/packing.h"
-#include "indet/polytope/force_polytope.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

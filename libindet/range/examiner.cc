@@ -1,10 +1,10 @@
-#include "indet/range/examiner.h"
+#include "libindet/range/examiner.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "indet/base/random.h"
-#include "indet/base/tolerances.h"
+#include "libindet/base/random.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/vertex.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/vertex.h"
 
 namespace indet {
 

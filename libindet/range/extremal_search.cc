@@ -1,4 +1,4 @@
-#include "indet/range/extremal_search.h"
+#include "libindet/range/extremal_search.h"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 #include <memory>
 #include <optional>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/base/worker_team.h"
-#include "indet/pivoting/neighbour_search.h"
-#include "indet/pivoting/tableau_solver.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/base/worker_team.h"
+#include "libindet/pivoting/neighbour_search.h"
+#include "libindet/pivoting/tableau_solver.h"
 
 namespace indet {
 namespace {

@@ -5,13 +5,13 @@
 #include <functional>
 #include <vector>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/lp/vertex.h"
-#include "indet/pivoting/pivot_rule.h"
-#include "indet/range/examiner.h"
-#include "indet/range/method.h"
-#include "indet/range/paper_work.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/pivoting/pivot_rule.h"
+#include "libindet/range/examiner.h"
+#include "libindet/range/method.h"
+#include "libindet/range/paper_work.h"
 
 namespace indet {
 

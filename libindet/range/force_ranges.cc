@@ -1,4 +1,4 @@
-#include "indet/range/force_ranges.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "indet/packing/packing.h"
-#include "indet/polytope/force_polytope.h"
-#include "indet/range/contact_choice.h"
-#include "indet/range/method.h"
-#include "indet/range/paper_work.h"
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/range/contact_choice.h"
+#include "libindet/range/method.h"
+#include "libindet/range/paper_work.h"
 
 namespace indet {
 

@@ -1,11 +1,11 @@
-#include "indet/range/measures.h"
+#include "libindet/range/measures.h"
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "indet/base/tolerances.h"
-#include "indet/contact/contact_matrix.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/contact/contact_matrix.h"
 
 namespace indet {
 namespace {

@@ -1,4 +1,4 @@
-#include "indet/range/method.h"
+#include "libindet/range/method.h"
 
 namespace indet {
 

@@ -1,9 +1,9 @@
-#include "indet/range/paper_start.h"
+#include "libindet/range/paper_start.h"
 
-#include "indet/base/tolerances.h"
-#include "indet/lp/walk.h"
-#include "indet/pivoting/interior_start.h"
-#include "indet/polytope/interior.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/lp/walk.h"
+#include "libindet/pivoting/interior_start.h"
+#include "libindet/polytope/interior.h"
 
 namespace indet {
 namespace {

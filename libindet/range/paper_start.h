@@ -1,10 +1,10 @@
 #pragma once
 
-#include "indet/lp/feasible_set.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/packing/packing.h"
-#include "indet/polytope/force_polytope.h"
-#include "indet/range/paper_work.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/range/paper_work.h"
 
 namespace indet {
 

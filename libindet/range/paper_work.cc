@@ -1,4 +1,4 @@
-#include "indet/range/paper_work.h"
+#include "libindet/range/paper_work.h"
 
 #include <numeric>
 

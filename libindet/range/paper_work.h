@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "indet/pivoting/interior_start.h"
-#include "indet/pivoting/neighbour_search.h"
+#include "libindet/pivoting/interior_start.h"
+#include "libindet/pivoting/neighbour_search.h"
 
 namespace indet {
 

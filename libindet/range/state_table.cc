@@ -1,4 +1,4 @@
-#include "indet/range/state_table.h"
+#include "libindet/range/state_table.h"
 
 #include <algorithm>
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "indet/lp/vertex.h"
-#include "indet/polytope/force_polytope.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

@@ -1,10 +1,10 @@
-#include "indet/sampling/bias.h"
+#include "libindet/sampling/bias.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "indet/base/tolerances.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "indet/base/progress.h"
-#include "indet/range/force_ranges.h"
-#include "indet/sampling/convex_body.h"
-#include "indet/sampling/uniform_sampling.h"
-#include "indet/statistics/two_sample.h"
+#include "libindet/base/progress.h"
+#include "libindet/range/force_ranges.h"
+#include "libindet/sampling/convex_body.h"
+#include "libindet/sampling/uniform_sampling.h"
+#include "libindet/statistics/two_sample.h"
 
 namespace indet {
 

@@ -1,11 +1,11 @@
-#include "indet/sampling/convex_body.h"
+#include "libindet/sampling/convex_body.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 
-#include "indet/base/error.h"
-#include "indet/polytope/interior.h"
+#include "libindet/base/error.h"
+#include "libindet/polytope/interior.h"
 
 namespace indet {
 

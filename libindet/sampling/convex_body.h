@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "indet/lp/feasible_set.h"
-#include "indet/polytope/force_polytope.h"
+#include "libindet/lp/feasible_set.h"
+#include "libindet/polytope/force_polytope.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/sampling/coordinate_walk.h"
+#include "libindet/sampling/coordinate_walk.h"
 
 #include <algorithm>
 #include <cmath>

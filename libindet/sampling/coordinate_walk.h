@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "indet/base/random.h"
-#include "indet/sampling/convex_body.h"
+#include "libindet/base/random.h"
+#include "libindet/sampling/convex_body.h"
 
 namespace indet {
 

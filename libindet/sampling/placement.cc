@@ -1,11 +1,11 @@
-#include "indet/sampling/placement.h"
+#include "libindet/sampling/placement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "indet/base/tolerances.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {

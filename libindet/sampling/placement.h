@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 
-#include "indet/packing/packing.h"
-#include "indet/range/force_ranges.h"
-#include "indet/sampling/convex_body.h"
-#include "indet/sampling/uniform_sampling.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/force_ranges.h"
+#include "libindet/sampling/convex_body.h"
+#include "libindet/sampling/uniform_sampling.h"
 
 namespace indet {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 namespace indet {
 

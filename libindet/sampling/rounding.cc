@@ -1,4 +1,4 @@
-#include "indet/sampling/rounding.h"
+#include "libindet/sampling/rounding.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "indet/base/error.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "indet/sampling/random_streams.h"
+#include "libindet/base/error.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "libindet/sampling/random_streams.h"
 
 namespace indet {
 namespace {

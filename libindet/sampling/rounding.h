@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "indet/base/worker_team.h"
-#include "indet/sampling/convex_body.h"
-#include "indet/sampling/coordinate_walk.h"
+#include "libindet/base/worker_team.h"
+#include "libindet/sampling/convex_body.h"
+#include "libindet/sampling/coordinate_walk.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/sampling/shape.h"
+#include "libindet/sampling/shape.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,12 +8,12 @@
 #include <optional>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "indet/sampling/random_streams.h"
-#include "indet/statistics/bootstrap.h"
+#include "libindet/base/error.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "libindet/sampling/random_streams.h"
+#include "libindet/statistics/bootstrap.h"
 
 namespace indet {
 namespace {

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "indet/base/progress.h"
-#include "indet/lp/lp_solver.h"
-#include "indet/range/force_ranges.h"
-#include "indet/sampling/convex_body.h"
-#include "indet/sampling/uniform_sampling.h"
+#include "libindet/base/progress.h"
+#include "libindet/lp/lp_solver.h"
+#include "libindet/range/force_ranges.h"
+#include "libindet/sampling/convex_body.h"
+#include "libindet/sampling/uniform_sampling.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/sampling/uniform_sampling.h"
+#include "libindet/sampling/uniform_sampling.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <limits>
 #include <utility>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/sampling/random_streams.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/sampling/random_streams.h"
 
 namespace indet {
 namespace {

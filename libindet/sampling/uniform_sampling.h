@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/progress.h"
-#include "indet/sampling/convex_body.h"
-#include "indet/sampling/coordinate_walk.h"
-#include "indet/sampling/rounding.h"
-#include "indet/statistics/convergence.h"
+#include "libindet/base/progress.h"
+#include "libindet/sampling/convex_body.h"
+#include "libindet/sampling/coordinate_walk.h"
+#include "libindet/sampling/rounding.h"
+#include "libindet/statistics/convergence.h"
 
 namespace indet {
 

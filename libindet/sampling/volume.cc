@@ -1,12 +1,12 @@
-#include "indet/sampling/volume.h"
+#include "libindet/sampling/volume.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/sampling/random_streams.h"
+#include "libindet/base/error.h"
+#include "libindet/sampling/random_streams.h"
 
 namespace indet {
 namespace {

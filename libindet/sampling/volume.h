@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "indet/base/progress.h"
-#include "indet/sampling/convex_body.h"
-#include "indet/sampling/uniform_sampling.h"
+#include "libindet/base/progress.h"
+#include "libindet/sampling/convex_body.h"
+#include "libindet/sampling/uniform_sampling.h"
 
 namespace indet {
 

@@ -1,10 +1,10 @@
-#include "indet/statistics/bootstrap.h"
+#include "libindet/statistics/bootstrap.h"
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 namespace indet {
 

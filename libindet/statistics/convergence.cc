@@ -1,4 +1,4 @@
-#include "indet/statistics/convergence.h"
+#include "libindet/statistics/convergence.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

@@ -1,4 +1,4 @@
-#include "indet/statistics/distribution.h"
+#include "libindet/statistics/distribution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "indet/statistics/bootstrap.h"
+#include "libindet/statistics/bootstrap.h"
 
 namespace indet {
 

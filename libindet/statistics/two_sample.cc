@@ -1,4 +1,4 @@
-#include "indet/statistics/two_sample.h"
+#include "libindet/statistics/two_sample.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

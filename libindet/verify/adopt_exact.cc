@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "indet/range/certify.h"
-#include "indet/range/measures.h"
-#include "indet/verify/exact_check.h"
+#include "libindet/range/certify.h"
+#include "libindet/range/measures.h"
+#include "libindet/verify/exact_check.h"
 
 namespace indet {
 namespace {

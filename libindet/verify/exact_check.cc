@@ -1,4 +1,4 @@
-#include "indet/verify/exact_check.h"
+#include "libindet/verify/exact_check.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <optional>
 #include <utility>
 
-#include "indet/base/error.h"
-#include "indet/base/worker_team.h"
-#include "indet/exact/optimum.h"
+#include "libindet/base/error.h"
+#include "libindet/base/worker_team.h"
+#include "libindet/exact/optimum.h"
 
 namespace indet {
 namespace {

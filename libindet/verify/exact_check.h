@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/progress.h"
-#include "indet/packing/packing.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/base/progress.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet {
 

@@ -1,4 +1,4 @@
-#include "indet/verify/nonnegative.h"
+#include "libindet/verify/nonnegative.h"
 
 #include <Eigen/QR>
 #include <vector>

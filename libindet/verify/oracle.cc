@@ -1,4 +1,4 @@
-#include "indet/verify/oracle.h"
+#include "libindet/verify/oracle.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "indet/verify/nonnegative.h"
+#include "libindet/verify/nonnegative.h"
 
 namespace indet {
 namespace {

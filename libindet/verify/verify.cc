@@ -1,4 +1,4 @@
-#include "indet/verify/verify.h"
+#include "libindet/verify/verify.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "indet/base/error.h"
-#include "indet/base/tolerances.h"
-#include "indet/verify/oracle.h"
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/verify/oracle.h"
 
 namespace indet {
 namespace {

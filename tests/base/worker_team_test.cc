@@ -1,4 +1,4 @@
-#include "indet/base/worker_team.h"
+#include "libindet/base/worker_team.h"
 
 #include <gtest/gtest.h>
 

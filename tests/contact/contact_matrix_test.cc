@@ -1,13 +1,13 @@
-#include "indet/contact/contact_matrix.h"
+#include "libindet/contact/contact_matrix.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "indet/base/random.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/zoo.h"
+#include "libindet/base/random.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

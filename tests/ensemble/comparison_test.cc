@@ -1,4 +1,4 @@
-#include "indet/ensemble/comparison.h"
+#include "apps/ensemble/presentation/comparison.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-#include "indet/exact/optimum.h"
+#include "libindet/exact/optimum.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "indet/exact/certificate.h"
-#include "support/extremes.h"
-#include "support/rational_simplex.h"
-#include "support/zoo.h"
+#include "libindet/exact/certificate.h"
+#include "tests/support/extremes.h"
+#include "tests/support/rational_simplex.h"
+#include "tests/support/zoo.h"
 
 namespace indet::exact {
 namespace {

@@ -1,12 +1,12 @@
-#include "indet/exact/rational_solver.h"
+#include "libindet/exact/rational_solver.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "indet/base/random.h"
-#include "indet/exact/optimum.h"
+#include "libindet/base/random.h"
+#include "libindet/exact/optimum.h"
 
 namespace indet::exact {
 namespace {

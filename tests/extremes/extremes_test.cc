@@ -1,12 +1,12 @@
-#include "support/extremes.h"
+#include "tests/support/extremes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "indet/packing/validate.h"
-#include "indet/range/analyze.h"
-#include "support/zoo.h"
+#include "libindet/packing/validate.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

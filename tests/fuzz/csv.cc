@@ -1,6 +1,6 @@
 // Parts: disks.csv, walls.csv, contacts.csv, scene.toml.
-#include "indet/io/csv_reader.h"
-#include "target.h"
+#include "libindet/io/csv_reader.h"
+#include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace indet;

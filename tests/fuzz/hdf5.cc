@@ -1,8 +1,8 @@
 // A whole HDF5 file, read as a packing and as ranges. Its own checksums stop most changes early, so the
 // numbers are compared only after everything was read.
-#include "indet/io/packing_file.h"
-#include "indet/io/ranges_file.h"
-#include "target.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/io/ranges_file.h"
+#include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace indet;

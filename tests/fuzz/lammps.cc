@@ -1,6 +1,6 @@
 // Parts: the dump of atoms, the dump of contacts.
-#include "indet/io/lammps_reader.h"
-#include "target.h"
+#include "libindet/io/lammps_reader.h"
+#include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace indet;

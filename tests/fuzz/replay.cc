@@ -3,7 +3,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "target.h"
+#include "tests/fuzz/target.h"
 
 int main(int argc, char** argv) {
   int files = 0;

@@ -1,6 +1,6 @@
 // A scene of the simulators, TOML.
-#include "indet/sim/scene_toml.h"
-#include "target.h"
+#include "libsim/scene_toml.h"
+#include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace indet;

@@ -26,7 +26,7 @@ void expect_input_error_or_success(Reader reader);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-#include "indet/base/error.h"
+#include "libindet/base/error.h"
 
 template <class Reader>
 void indet::fuzz::expect_input_error_or_success(Reader reader) {

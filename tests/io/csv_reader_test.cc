@@ -1,4 +1,4 @@
-#include "indet/io/csv_reader.h"
+#include "libindet/io/csv_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "support/temporary_folder.h"
+#include "libindet/base/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace indet {
 namespace {

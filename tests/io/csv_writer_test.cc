@@ -1,4 +1,4 @@
-#include "indet/io/csv_writer.h"
+#include "libindet/io/csv_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,12 +6,12 @@
 #include <cmath>
 #include <string>
 
-#include "indet/base/error.h"
-#include "indet/io/csv_reader.h"
-#include "indet/io/lammps_reader.h"
-#include "indet/io/table.h"
-#include "io/sample.h"
-#include "support/temporary_folder.h"
+#include "libindet/base/error.h"
+#include "libindet/io/csv_reader.h"
+#include "libindet/io/lammps_reader.h"
+#include "libindet/io/table.h"
+#include "tests/io/sample.h"
+#include "tests/support/temporary_folder.h"
 
 namespace indet {
 namespace {

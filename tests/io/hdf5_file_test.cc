@@ -1,4 +1,4 @@
-#include "indet/io/hdf5_file.h"
+#include "libindet/io/hdf5_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace indet {
 namespace {

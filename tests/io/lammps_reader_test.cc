@@ -1,4 +1,4 @@
-#include "indet/io/lammps_reader.h"
+#include "libindet/io/lammps_reader.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/base/random.h"
-#include "indet/io/balance.h"
-#include "support/temporary_folder.h"
+#include "libindet/base/error.h"
+#include "libindet/base/random.h"
+#include "libindet/io/balance.h"
+#include "tests/support/temporary_folder.h"
 
 namespace indet {
 namespace {

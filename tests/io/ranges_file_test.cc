@@ -1,4 +1,4 @@
-#include "indet/io/ranges_file.h"
+#include "libindet/io/ranges_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <functional>
 #include <string>
 
-#include "indet/io/hdf5_file.h"
-#include "io/sample.h"
-#include "support/temporary_folder.h"
+#include "libindet/io/hdf5_file.h"
+#include "tests/io/sample.h"
+#include "tests/support/temporary_folder.h"
 
 namespace indet {
 namespace {

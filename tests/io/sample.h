@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "indet/packing/packing.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet::test {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "indet/io/ranges_file.h"
-#include "io/sample.h"
+#include "libindet/io/ranges_file.h"
+#include "tests/io/sample.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

@@ -1,4 +1,4 @@
-#include "indet/lp/lp_solver.h"
+#include "libindet/lp/lp_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 #include <ostream>
 #include <string>
 
-#include "indet/base/random.h"
-#include "indet/lp/glpk_problem.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "support/maximiser_checks.h"
-#include "support/objectives.h"
-#include "support/oracle.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/glpk_problem.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/maximiser_checks.h"
+#include "tests/support/objectives.h"
+#include "tests/support/oracle.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 

@@ -1,13 +1,13 @@
-#include "indet/lp/vertex.h"
+#include "libindet/lp/vertex.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "indet/base/error.h"
-#include "indet/base/random.h"
-#include "indet/lp/walk.h"
-#include "support/sets.h"
+#include "libindet/base/error.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

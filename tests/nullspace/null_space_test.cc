@@ -1,17 +1,17 @@
-#include "indet/nullspace/null_space.h"
+#include "libindet/nullspace/null_space.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 
-#include "indet/base/random.h"
-#include "indet/base/tolerances.h"
-#include "indet/contact/contact_matrix.h"
-#include "indet/nullspace/sparse_qr.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/zoo.h"
+#include "libindet/base/random.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/contact/contact_matrix.h"
+#include "libindet/nullspace/sparse_qr.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

@@ -1,13 +1,13 @@
-#include "indet/pivoting/interior_start.h"
+#include "libindet/pivoting/interior_start.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "indet/base/random.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

@@ -1,13 +1,13 @@
-#include "indet/pivoting/neighbour_search.h"
+#include "libindet/pivoting/neighbour_search.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "indet/base/random.h"
-#include "indet/lp/walk.h"
-#include "support/oracle.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/oracle.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

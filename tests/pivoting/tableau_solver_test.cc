@@ -1,4 +1,4 @@
-#include "indet/pivoting/tableau_solver.h"
+#include "libindet/pivoting/tableau_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <memory>
 #include <string>
 
-#include "indet/base/random.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "support/maximiser_checks.h"
-#include "support/objectives.h"
-#include "support/oracle.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/maximiser_checks.h"
+#include "tests/support/objectives.h"
+#include "tests/support/oracle.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

@@ -1,14 +1,14 @@
-#include "indet/pivoting/tableau.h"
+#include "libindet/pivoting/tableau.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "indet/base/random.h"
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

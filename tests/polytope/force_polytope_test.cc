@@ -1,14 +1,14 @@
-#include "indet/polytope/force_polytope.h"
+#include "libindet/polytope/force_polytope.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
-#include "indet/lp/vertex.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/zoo.h"
+#include "libindet/lp/vertex.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

@@ -1,10 +1,10 @@
-#include "indet/polytope/interior.h"
+#include "libindet/polytope/interior.h"
 
 #include <gtest/gtest.h>
 
-#include "indet/base/random.h"
-#include "support/oracle.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "tests/support/oracle.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

@@ -1,4 +1,4 @@
-#include "indet/range/analyze.h"
+#include "libindet/range/analyze.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "indet/contact/contact_matrix.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/zoo.h"
+#include "libindet/contact/contact_matrix.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

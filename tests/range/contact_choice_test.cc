@@ -1,4 +1,4 @@
-#include "indet/range/contact_choice.h"
+#include "libindet/range/contact_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 namespace indet {
 namespace {

@@ -1,4 +1,4 @@
-#include "indet/range/examiner.h"
+#include "libindet/range/examiner.h"
 
 #include <gtest/gtest.h>
 

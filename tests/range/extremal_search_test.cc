@@ -1,15 +1,15 @@
-#include "indet/range/extremal_search.h"
+#include "libindet/range/extremal_search.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
-#include "indet/base/random.h"
-#include "indet/lp/walk.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/sets.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/sets.h"
 
 namespace indet {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "indet/base/error.h"
-#include "indet/base/random.h"
-#include "indet/range/analyze.h"
-#include "support/compare.h"
-#include "support/zoo.h"
+#include "libindet/base/error.h"
+#include "libindet/base/random.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/compare.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "indet/io/lammps_reader.h"
-#include "indet/range/analyze.h"
-#include "support/compare.h"
+#include "libindet/io/lammps_reader.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/compare.h"
 
 namespace indet {
 namespace {

@@ -1,4 +1,4 @@
-#include "indet/range/method.h"
+#include "libindet/range/method.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "indet/range/analyze.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

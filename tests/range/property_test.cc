@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "indet/range/analyze.h"
-#include "support/compare.h"
-#include "support/oracle.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/compare.h"
+#include "tests/support/oracle.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

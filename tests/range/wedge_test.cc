@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "indet/range/analyze.h"
-#include "support/compare.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/compare.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

@@ -1,13 +1,13 @@
-#include "indet/sampling/bias.h"
+#include "libindet/sampling/bias.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "bodies.h"
-#include "indet/range/analyze.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "tests/sampling/bodies.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

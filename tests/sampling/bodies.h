@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "indet/lp/feasible_set.h"
+#include "libindet/lp/feasible_set.h"
 
 namespace indet::test {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "bodies.h"
-#include "indet/sampling/uniform_sampling.h"
+#include "libindet/sampling/uniform_sampling.h"
+#include "tests/sampling/bodies.h"
 
 namespace indet {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "indet/base/error.h"
-#include "indet/range/analyze.h"
-#include "indet/sampling/uniform_sampling.h"
-#include "support/zoo.h"
+#include "libindet/base/error.h"
+#include "libindet/range/analyze.h"
+#include "libindet/sampling/uniform_sampling.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

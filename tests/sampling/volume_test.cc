@@ -1,15 +1,15 @@
-#include "indet/sampling/volume.h"
+#include "libindet/sampling/volume.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "bodies.h"
-#include "indet/range/analyze.h"
-#include "indet/sampling/placement.h"
-#include "indet/sampling/shape.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "libindet/sampling/placement.h"
+#include "libindet/sampling/shape.h"
+#include "tests/sampling/bodies.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/worlds.h"
+#include "tests/sim/worlds.h"
 
 /// The same seed gives the same bytes in every build: these digests hold for debug, release and sanitized
 /// builds, on any machine with IEEE doubles. They change only with the physics or the order of its sums.

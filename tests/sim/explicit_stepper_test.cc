@@ -1,10 +1,10 @@
-#include "indet/sim/explicit_stepper.h"
+#include "libsim/explicit_stepper.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/worlds.h"
+#include "tests/sim/worlds.h"
 
 namespace indet::sim {
 namespace {

@@ -1,9 +1,9 @@
-#include "indet/sim/implicit_stepper.h"
+#include "libsim/implicit_stepper.h"
 
 #include <gtest/gtest.h>
 
-#include "indet/base/random.h"
-#include "sim/worlds.h"
+#include "libindet/base/random.h"
+#include "tests/sim/worlds.h"
 
 namespace indet::sim {
 namespace {

@@ -1,11 +1,11 @@
-#include "indet/sim/neighbours.h"
+#include "libsim/neighbours.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "indet/base/random.h"
-#include "sim/worlds.h"
+#include "libindet/base/random.h"
+#include "tests/sim/worlds.h"
 
 namespace indet::sim {
 namespace {

@@ -1,9 +1,9 @@
-#include "indet/sim/perturb_sampling.h"
+#include "libsim/perturb_sampling.h"
 
 #include <gtest/gtest.h>
 
-#include "indet/base/error.h"
-#include "sim/worlds.h"
+#include "libindet/base/error.h"
+#include "tests/sim/worlds.h"
 
 namespace indet::sim {
 namespace {

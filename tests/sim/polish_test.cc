@@ -1,10 +1,10 @@
-#include "indet/sim/polish.h"
+#include "libsim/polish.h"
 
 #include <gtest/gtest.h>
 
-#include "indet/base/random.h"
-#include "indet/sim/static_solver.h"
-#include "sim/worlds.h"
+#include "libindet/base/random.h"
+#include "libsim/static_solver.h"
+#include "tests/sim/worlds.h"
 
 namespace indet::sim {
 namespace {

@@ -1,14 +1,14 @@
-#include "indet/sim/scene.h"
+#include "libsim/scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
 
-#include "indet/base/error.h"
-#include "indet/sim/scene_toml.h"
-#include "sim/worlds.h"
-#include "support/temporary_folder.h"
+#include "libindet/base/error.h"
+#include "libsim/scene_toml.h"
+#include "tests/sim/worlds.h"
+#include "tests/support/temporary_folder.h"
 
 namespace indet::sim {
 namespace {

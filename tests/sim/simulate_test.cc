@@ -1,4 +1,4 @@
-#include "indet/sim/simulate.h"
+#include "libsim/simulate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "indet/base/error.h"
-#include "sim/worlds.h"
+#include "libindet/base/error.h"
+#include "tests/sim/worlds.h"
 
 namespace indet::sim {
 namespace {

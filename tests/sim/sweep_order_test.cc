@@ -1,4 +1,4 @@
-#include "indet/sim/sweep_order.h"
+#include "libsim/sweep_order.h"
 
 #include <gmock/gmock.h>
 

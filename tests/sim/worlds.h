@@ -4,8 +4,8 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "indet/sim/scene.h"
-#include "indet/sim/simulate.h"
+#include "libsim/scene.h"
+#include "libsim/simulate.h"
 
 namespace indet::sim {
 

@@ -1,89 +1,107 @@
-"""Each stage sees the headers of the stages it is built on, and no others.
+"""Data flows one way: the includes of each stage are what CMake says that it depends on.
 
-Arguments: compile_commands.json of the build, the folder libindet.
+Arguments: the root of the repository. With --write, the list in docs/ARCHITECTURE.md is made anew.
 """
 
-import json
 import pathlib
 import re
-import shlex
-import subprocess
 import sys
 import tempfile
 import unittest
 
-LIBRARY, COMMANDS = (pathlib.Path(sys.argv.pop()) for _ in range(2))
+import includes
 
-# From first to last; a stage may see only what stands before it.
-ORDER = ["base", "statistics", "packing", "exact", "contact", "nullspace", "lp", "pivoting", "polytope", "range", "sampling", "verify", "io",
-         "report"]
-HEADERS = {"base": "error.h", "statistics": "bootstrap.h", "packing": "packing.h", "exact": "contact_problem.h", "contact": "contact_matrix.h", "nullspace": "null_space.h",
-           "lp": "lp_solver.h", "pivoting": "tableau.h", "polytope": "force_polytope.h", "range": "analyze.h",
-           "sampling": "convex_body.h", "verify": "verify.h",
-           "io": "packing_file.h", "report": "packing_picture.h", "sim": "world.h",
-           "ensemble": "plan.h"}
+WRITE = "--write" in sys.argv
+if WRITE:
+    sys.argv.remove("--write")
+ROOT = pathlib.Path(sys.argv.pop()).resolve()
+PAGE = ROOT / "docs/ARCHITECTURE.md"
+LIST = re.compile(r"(<!-- stages -->\n```text\n)(.*?)(```\n)", re.DOTALL)
 
-
-def compile_command(stage):
-    """The command that compiles some source of the stage, without its source and output."""
-    for entry in json.loads(COMMANDS.read_text()):
-        if f"CMakeFiles/indet_{stage}.dir/" not in entry["command"]:
-            continue
-        words = [word for word in shlex.split(entry["command"]) if not word.endswith("ccache")]
-        output = words.index("-o")
-        del words[output:output + 2]
-        words.remove("-c")
-        words.remove(entry["file"])
-        return words, entry["directory"]
-    raise LookupError(stage)
-
-
-def compile_text(stage, text, *options):
-    command, directory = compile_command(stage)
-    with tempfile.NamedTemporaryFile("w", suffix=".cc") as source:
-        source.write(text)
-        source.flush()
-        return subprocess.run([*command, *options, source.name], cwd=directory, capture_output=True, text=True,
-                              timeout=120, check=False)
-
-
-def visible_from(stage):
-    """The stages whose headers a source of this stage can include."""
-    lines = [f'#if __has_include("indet/{other}/{header}")\nvisible {other}\n#endif'
-             for other, header in HEADERS.items()]
-    done = compile_text(stage, "\n".join(lines) + "\n", "-E", "-P")
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr)
-    return {line.split()[1] for line in done.stdout.splitlines() if line.startswith("visible ")}
+# The only files that include the header of a C library.
+WRAPPERS = {
+    "glpk.h": {"libindet/lp/glpk_problem.cc"},
+    "hdf5.h": {"libindet/io/hdf5_file.cc"},
+    "openssl/evp.h": {"libindet/io/sha256.cc"},
+    "cairo.h": {"libindet/drawing/canvas.cc"},
+    "SuiteSparseQR.hpp": {"libindet/nullspace/sparse_qr.cc"},
+}
 
 
 class Direction(unittest.TestCase):
-    def test_a_contact_source_that_includes_a_range_header_does_not_compile(self):
-        wrong = compile_text("contact", '#include "indet/range/analyze.h"\n', "-fsyntax-only")
-        self.assertNotEqual(wrong.returncode, 0)
-        self.assertIn("indet/range/analyze.h: No such file or directory", wrong.stderr)
+    @classmethod
+    def setUpClass(cls):
+        cls.stages = includes.read_stages(ROOT)
 
-    def test_a_contact_source_that_includes_an_error_header_compiles(self):
-        right = compile_text("contact", '#include "indet/base/error.h"\n', "-fsyntax-only")
-        self.assertEqual(right.returncode, 0, right.stderr)
+    def test_the_includes_of_a_stage_are_its_depends(self):
+        self.assertGreater(len(self.stages), 15)
+        for name, stage in self.stages.items():
+            with self.subTest(name):
+                self.assertEqual(stage.includes, stage.depends)
 
-    def test_each_stage_sees_only_what_comes_before(self):
-        for number, stage in enumerate(ORDER):
-            with self.subTest(stage):
-                visible = visible_from(stage)
-                self.assertIn(stage, visible)
-                self.assertLessEqual(visible, set(ORDER[:number + 1]))
+    def test_no_stage_leads_back_to_itself(self):
+        self.assertEqual(set(includes.in_order(self.stages)), set(self.stages))
 
-    def test_simulators_see_the_packing_type_alone(self):
-        self.assertEqual(visible_from("sim"), {"base", "packing", "sim"})
-        for stage in ORDER:
-            self.assertFalse({"sim", "ensemble"} & visible_from(stage))
+    def test_libraries_include_nothing_of_the_program(self):
+        for path in includes.sources(ROOT, "libindet", "libsim"):
+            for quoted, name in includes.included(ROOT / path):
+                self.assertFalse(quoted and name.startswith(("apps/", "tests/", "bench/")), f"{path}: {name}")
 
-    def test_the_verifier_includes_nothing_of_the_solver(self):
-        sources = sorted((LIBRARY / "verify").glob("*.*"))
-        included = {stage for path in sources for stage in re.findall(r'#include "indet/(\w+)/', path.read_text())}
-        self.assertIn("packing", included)
-        self.assertFalse(included & {"contact", "nullspace", "lp", "pivoting", "polytope"})
+    def test_every_include_is_the_path_of_a_file_from_the_root(self):
+        for path in includes.sources(ROOT, *includes.CODE):
+            for quoted, name in includes.included(ROOT / path):
+                if quoted:
+                    self.assertTrue((ROOT / name).is_file(), f"{path}: {name}")
+                else:
+                    self.assertFalse(name.startswith(("libindet/", "libsim/", "apps/")), f"{path}: {name}")
+
+    def test_the_simulators_see_the_packing_type_alone(self):
+        self.assertEqual(self.stages["sim"].depends, {"base", "packing"})
+
+    def test_the_checker_includes_nothing_of_the_solver(self):
+        self.assertFalse(self.stages["verify"].includes & {"contact", "nullspace", "lp", "pivoting", "polytope"})
+
+    def test_each_library_has_one_wrapper(self):
+        for path in includes.sources(ROOT, "libindet", "libsim", "apps"):
+            for quoted, name in includes.included(ROOT / path):
+                wrappers = WRAPPERS.get(name) if not quoted else None
+                self.assertTrue(wrappers is None or str(path) in wrappers, f"{path} includes {name}")
+
+    def test_the_list_in_the_documents_is_made_from_the_includes(self):
+        page = PAGE.read_text()
+        made = includes.arrows(self.stages)
+        if WRITE:
+            PAGE.write_text(LIST.sub(lambda found: found[1] + made + found[3], page))
+        self.assertEqual(LIST.search(PAGE.read_text())[2], made)
+
+
+class Reader(unittest.TestCase):
+    """The reader of includes finds what is wrong."""
+
+    def tree(self, files):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        root = pathlib.Path(folder.name)
+        for name, text in files.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        return includes.read_stages(root)
+
+    def test_an_include_that_is_not_among_the_depends_is_seen(self):
+        stages = self.tree({"libindet/a/CMakeLists.txt": "indet_add_stage(a SOURCES a.cc)\n",
+                            "libindet/a/a.cc": '#include "libindet/b/b.h"\n',
+                            "libindet/b/CMakeLists.txt": "indet_add_stage(b SOURCES b.cc DEPENDS a\n  LIBRARIES a::b)\n",
+                            "libindet/b/b.h": "\n"})
+        self.assertEqual((stages["a"].includes, stages["a"].depends), ({"b"}, set()))
+        self.assertEqual((stages["b"].includes, stages["b"].depends), (set(), {"a"}))
+
+    def test_a_circle_is_seen(self):
+        stages = self.tree({"libindet/a/CMakeLists.txt": "indet_add_stage(a SOURCES a.cc DEPENDS b)\n",
+                            "libindet/a/a.cc": '#include "libindet/b/b.h"\n',
+                            "libindet/b/CMakeLists.txt": "indet_add_stage(b SOURCES b.cc DEPENDS a)\n",
+                            "libindet/b/b.h": '#include "libindet/a/a.h"\n'})
+        with self.assertRaisesRegex(ValueError, "a circle among a, b"):
+            includes.in_order(stages)
 
 
 if __name__ == "__main__":

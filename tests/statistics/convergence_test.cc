@@ -1,4 +1,4 @@
-#include "indet/statistics/convergence.h"
+#include "libindet/statistics/convergence.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "indet/base/random.h"
+#include "libindet/base/random.h"
 
 namespace indet {
 namespace {

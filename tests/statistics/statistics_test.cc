@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "indet/base/random.h"
-#include "indet/statistics/distribution.h"
+#include "libindet/base/random.h"
+#include "libindet/statistics/distribution.h"
 
 namespace indet {
 namespace {

@@ -1,4 +1,4 @@
-#include "indet/statistics/two_sample.h"
+#include "libindet/statistics/two_sample.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "indet/base/random.h"
-#include "indet/statistics/convergence.h"
+#include "libindet/base/random.h"
+#include "libindet/statistics/convergence.h"
 
 namespace indet {
 namespace {

@@ -1,11 +1,11 @@
-#include "support/compare.h"
+#include "tests/support/compare.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "support/oracle.h"
+#include "tests/support/oracle.h"
 
 namespace indet::test {
 namespace {

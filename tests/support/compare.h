@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "indet/range/force_ranges.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet::test {
 

@@ -1,11 +1,11 @@
-#include "support/compare.h"
+#include "tests/support/compare.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "indet/range/analyze.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "tests/support/zoo.h"
 
 namespace indet::test {
 namespace {

@@ -1,12 +1,12 @@
-#include "support/extremes.h"
+#include "tests/support/extremes.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "indet/base/random.h"
-#include "support/rational_simplex.h"
-#include "support/scene_builder.h"
-#include "support/zoo.h"
+#include "libindet/base/random.h"
+#include "tests/support/rational_simplex.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/zoo.h"
 
 namespace indet::extremes {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "indet/packing/packing.h"
-#include "indet/range/force_ranges.h"
+#include "libindet/packing/packing.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet::extremes {
 

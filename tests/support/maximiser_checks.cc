@@ -1,14 +1,14 @@
-#include "support/maximiser_checks.h"
+#include "tests/support/maximiser_checks.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "indet/lp/vertex.h"
-#include "indet/lp/walk.h"
-#include "support/objectives.h"
-#include "support/oracle.h"
-#include "support/sets.h"
+#include "libindet/lp/vertex.h"
+#include "libindet/lp/walk.h"
+#include "tests/support/objectives.h"
+#include "tests/support/oracle.h"
+#include "tests/support/sets.h"
 
 namespace indet::test {
 

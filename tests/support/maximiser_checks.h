@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "indet/base/random.h"
-#include "indet/lp/maximiser.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/maximiser.h"
 
 namespace indet::test {
 

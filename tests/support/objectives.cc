@@ -1,4 +1,4 @@
-#include "support/objectives.h"
+#include "tests/support/objectives.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "indet/lp/vertex.h"
+#include "libindet/lp/vertex.h"
 
 namespace indet::test {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "indet/base/random.h"
-#include "indet/lp/lp_solver.h"
-#include "support/oracle.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/lp_solver.h"
+#include "tests/support/oracle.h"
 
 namespace indet::test {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::oracle {
 

@@ -1,12 +1,12 @@
-#include "support/oracle.h"
+#include "tests/support/oracle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "support/compare.h"
-#include "support/zoo.h"
+#include "tests/support/compare.h"
+#include "tests/support/zoo.h"
 
 namespace indet::oracle {
 namespace {

@@ -1,4 +1,4 @@
-#include "support/rational_simplex.h"
+#include "tests/support/rational_simplex.h"
 
 #include <limits>
 

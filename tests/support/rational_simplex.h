@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::oracle {
 

@@ -1,4 +1,4 @@
-#include "support/scene_builder.h"
+#include "tests/support/scene_builder.h"
 
 namespace indet::zoo {
 

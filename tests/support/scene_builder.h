@@ -1,6 +1,6 @@
 #pragma once
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::zoo {
 

@@ -1,4 +1,4 @@
-#include "support/sets.h"
+#include "tests/support/sets.h"
 
 #include <Eigen/LU>
 

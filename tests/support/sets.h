@@ -1,7 +1,7 @@
 #pragma once
 
-#include "indet/base/random.h"
-#include "indet/lp/feasible_set.h"
+#include "libindet/base/random.h"
+#include "libindet/lp/feasible_set.h"
 
 namespace indet::test {
 

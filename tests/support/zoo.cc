@@ -1,4 +1,4 @@
-#include "support/zoo.h"
+#include "tests/support/zoo.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "indet/base/random.h"
-#include "support/scene_builder.h"
+#include "libindet/base/random.h"
+#include "tests/support/scene_builder.h"
 
 namespace indet::zoo {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "indet/packing/packing.h"
+#include "libindet/packing/packing.h"
 
 namespace indet::zoo {
 

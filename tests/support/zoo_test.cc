@@ -1,11 +1,11 @@
-#include "support/zoo.h"
+#include "tests/support/zoo.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "indet/packing/validate.h"
+#include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {

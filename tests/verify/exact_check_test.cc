@@ -1,14 +1,14 @@
-#include "indet/verify/exact_check.h"
+#include "libindet/verify/exact_check.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "indet/range/analyze.h"
-#include "indet/verify/verify.h"
-#include "support/extremes.h"
-#include "support/rational_simplex.h"
-#include "support/zoo.h"
+#include "libindet/range/analyze.h"
+#include "libindet/verify/verify.h"
+#include "tests/support/extremes.h"
+#include "tests/support/rational_simplex.h"
+#include "tests/support/zoo.h"
 
 namespace indet {
 namespace {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "libindet/io/simulation_file.h"
+#include "libsim/simulate.h"
+
+namespace indet {
+
+/// Between the values of libsim and those that libindet stores.
+
+/// What happened, in units of mg, r_max and √(r_max/g), and the raw contacts.
+SimulationRecord record_of(const sim::Simulation& simulation, const sim::SimulationOptions& options);
+
+TrajectoryFrame frame_of(const sim::Frame& frame, const sim::World& world);
+
+StoredCheckpoint stored(const sim::Checkpoint& checkpoint, const std::string& fingerprint,
+                        const Trajectory& trajectory);
+/// Friction is not part of a packing without contacts, so it comes from the options.
+sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::Friction& friction);
+
+/// Every option that the outcome depends on, as TOML.
+std::string to_toml(const sim::SimulationOptions& options);
+
+}  // namespace indet

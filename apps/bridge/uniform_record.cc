@@ -1,0 +1,105 @@
+#include "apps/bridge/uniform_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indet {
+
+std::map<std::string, double> numbers_of_point(const UniformSample& sample, const UniformOptions& options) {
+  return {{"dim", 0},
+          {"blocks", 0},
+          {"seed", static_cast<double>(options.seed)},
+          {"r", sample.r},
+          {"r_error", sample.r_error},
+          {"spread", sample.spread},
+          {"mean_norm", sample.mean_norm},
+          {"norm_deviation", sample.norm_deviation},
+          {"converged", sample.converged ? 1 : 0}};
+}
+
+std::map<std::string, double> numbers_of(const ForcePolytope& polytope, const UniformSample& sample,
+                                         const UniformOptions& options) {
+  std::map<std::string, double> numbers = numbers_of_point(sample, options);
+  numbers["dim"] = polytope.dim;
+  numbers["blocks"] = static_cast<double>(polytope.blocks.size());
+  numbers.insert({{"requested", options.effective},
+                  {"chains", sample.chains},
+                  {"samples", sample.count()},
+                  {"interval", static_cast<double>(sample.interval)},
+                  {"sweeps", static_cast<double>(sample.sweeps)},
+                  {"steps", static_cast<double>(sample.steps)},
+                  {"warm_up_phases", sample.rounding.phases},
+                  {"rhat", sample.rhat},
+                  {"ess", std::min(sample.bulk, sample.tail)},
+                  {"bulk_ess", sample.bulk},
+                  {"tail_ess", sample.tail},
+                  {"slowest", sample.slowest},
+                  {"worst_slack", sample.worst_slack},
+                  {"inscribed_radius", sample.ball.radius}});
+  return numbers;
+}
+
+std::map<std::string, double> numbers_of(const Placement& placement) {
+  std::map<std::string, double> numbers = {
+      {"start_distance", placement.distance},
+      {"start_distance_percentile", placement.distance_percentile},
+      {"start_norm_percentile", placement.norm_percentile},
+      {"start_normal_force_percentile", placement.normal_force_percentile},
+      {"start_mobilisation_percentile", placement.mobilisation_percentile},
+      {"start_central_fraction_R", placement.central_fraction_R},
+      {"start_sliding", placement.sliding},
+      {"start_sliding_percentile", placement.sliding_percentile},
+      {"most_sliding", placement.most_sliding}};
+  if (!std::isnan(placement.mean_R_star)) {
+    numbers["start_mean_R_star"] = placement.mean_R_star;
+    numbers["start_R_star_percentile"] = placement.R_star_percentile;
+  }
+  return numbers;
+}
+
+ComponentRecord components_of(const ConvexBody& body, const UniformSample& sample, double unit) {
+  const Eigen::Index count = body.frame.rows();
+  ComponentRecord record;
+  record.deviation = unit * sample.deviation;
+  record.quantile_levels.resize(5);
+  record.quantile_levels << 0.05, 0.25, 0.5, 0.75, 0.95;
+  record.quantiles.resize(count, 5);
+  record.rhat.resize(count);
+  record.bulk.resize(count);
+  record.tail.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Convergence& c = sample.components[static_cast<std::size_t>(k)];
+    record.rhat[k] = c.rhat;
+    record.bulk[k] = c.bulk;
+    record.tail[k] = c.tail;
+    Eigen::VectorXd values = component_of(body, sample, static_cast<int>(k));
+    std::sort(values.begin(), values.end());
+    for (int q = 0; q < 5; ++q) {
+      record.quantiles(k, q) =
+          unit * sorted_quantile({values.data(), static_cast<std::size_t>(values.size())},
+                                 record.quantile_levels[q]);
+    }
+  }
+  return record;
+}
+
+Eigen::MatrixXd some_states(const ConvexBody& body, const UniformSample& sample, int count) {
+  Eigen::MatrixXd states(body.frame.rows(), count);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Index from = static_cast<Eigen::Index>(i) * sample.count() / count;
+    states.col(i) = body.origin + body.frame * sample.z.col(from);
+  }
+  return states;
+}
+
+UniformSample sample_of_point(const ForcePolytope& polytope) {
+  UniformSample sample;
+  sample.converged = true;
+  sample.center = contact_state(polytope, polytope.lightest);
+  sample.deviation = Eigen::VectorXd::Zero(sample.center.size());
+  sample.r = sample.r_error = sample.spread = sample.norm_deviation = 0;
+  sample.mean_norm = sample.center.norm();
+  return sample;
+}
+
+}  // namespace indet

@@ -1,0 +1,250 @@
+#include "apps/ensemble/presentation/html_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "apps/ensemble/presentation/comparison.h"
+#include "apps/ensemble/presentation/figures.h"
+#include "apps/ensemble/presentation/gnuplot.h"
+#include "apps/ensemble/presentation/uniform_figures.h"
+#include "libindet/base/error.h"
+#include "libindet/io/whole_file.h"
+
+namespace indet {
+namespace {
+
+constexpr const char* kStyle = R"(
+body{font:16px/1.5 "DejaVu Sans",Verdana,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#111;background:#fff}
+h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.5rem}
+table{border-collapse:collapse;margin:1rem 0;font-size:.92rem}
+th,td{text-align:left;padding:.25rem .8rem .25rem 0;border-bottom:1px solid #ccc;vertical-align:top}
+figure{margin:1rem 0;break-inside:avoid}figure svg{max-width:100%;height:auto}
+.numbers td:not(:first-child),.numbers th{white-space:nowrap}
+.row{display:flex;gap:.5rem;flex-wrap:wrap}.row figure{flex:1 1 15rem}
+figcaption,.note{font-size:.92rem;color:#333}.differs{color:#a33000;font-weight:bold}.agrees{color:#00543c}
+@media print{body{margin:0;max-width:none;font-size:10pt}}
+)";
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// The <svg> element of a file, with identifiers that do not collide with those of others.
+std::string inline_svg(const std::filesystem::path& path, const std::string& prefix) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::size_t begin = text.find("<svg");
+  if (begin == std::string::npos) throw LibraryError(path.string() + " is not a picture");
+  text.erase(0, begin);
+  for (const char* quote : {"'", "\""}) {
+    replace_all(text, std::string(" id=") + quote, std::string(" data-id=") + quote + prefix + "-");
+    replace_all(text, " data-id=", " id=");
+    replace_all(text, std::string("href=") + quote + "#", std::string("href=") + quote + "#" + prefix + "-");
+  }
+  replace_all(text, "url(#", "url(#" + prefix + "-");
+  return text;
+}
+
+std::string table_of(const std::vector<Comparison>& rows, bool with_paper) {
+  std::string text = with_paper ? "<table><tr><th>quantity</th><th>paper</th><th>here</th><th></th></tr>\n"
+                                : "<table><tr><th>quantity</th><th>here</th></tr>\n";
+  for (const Comparison& row : rows) {
+    text += fmt::format("<tr><td>{}</td>", escaped(row.quantity));
+    if (with_paper) text += fmt::format("<td>{}</td>", escaped(row.paper));
+    text += fmt::format("<td>{}</td>", escaped(row.ours));
+    if (with_paper) text += fmt::format("<td class=\"{}\">{}</td>", row.verdict, row.verdict);
+    text += "</tr>\n";
+  }
+  return text + "</table>\n";
+}
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::string csv_of(const std::vector<Comparison>& rows) {
+  std::string text = "quantity,paper,here,verdict\n";
+  for (const Comparison& row : rows)
+    text +=
+        fmt::format("{},{},{},{}\n", quoted(row.quantity), quoted(row.paper), quoted(row.ours), row.verdict);
+  return text;
+}
+
+/// Fig. 4 as a table of what was run.
+std::string table_of_runs(const EnsembleTables& tables) {
+  const Samples samples(tables);
+  std::string text =
+      "<table><tr><th>protocol</th><th>packings</th><th>mean M</th><th>mean R (mg)</th><th>mean overlap "
+      "(r<sub>max</sub>)</th><th>came to rest</th></tr>\n";
+  std::set<std::string> protocols;
+  for (std::size_t row = 0; row < tables.runs.rows(); ++row)
+    protocols.insert(tables.runs.text("protocol", row));
+  for (const std::string& protocol : protocols) {
+    int still = 0;
+    for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
+      if (tables.runs.text("protocol", row) == protocol && tables.runs.text("ending", row) == "static")
+        ++still;
+    }
+    const std::vector<double> contacts = samples.runs(protocol, "contacts");
+    text += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.1e}</td><td>{}</td></tr>\n", protocol,
+        contacts.size(), mean_of(contacts).value, mean_of(samples.runs(protocol, "mean_R")).value,
+        mean_of(samples.runs(protocol, "mean_overlap")).value, still);
+  }
+  return text + "</table>\n";
+}
+
+std::string table_of_times(const EnsembleTables& tables) {
+  std::string text =
+      "<table><tr><th>stage</th><th>seconds a packing</th><th>longest</th><th>in all</th></tr>\n";
+  for (const auto& column : tables.timings.columns()) {
+    double sum = 0;
+    double longest = 0;
+    for (const double value : column.reals) {
+      if (std::isnan(value)) continue;
+      sum += value;
+      longest = std::max(longest, value);
+    }
+    text += fmt::format("<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.1f}</td></tr>\n",
+                        column.label.long_name, mean_of(column.reals).value, longest, sum);
+  }
+  return text + "</table>\n";
+}
+
+std::string failures(const EnsembleContents& contents) {
+  if (contents.failures.empty() && contents.missing.empty()) return "<p>No packing failed.</p>\n";
+  std::string text = "<ul>\n";
+  for (const UnitFailure& failure : contents.failures)
+    text += fmt::format("<li>{}: {}</li>\n", escaped(failure.unit), escaped(failure.reason));
+  for (const std::string& name : contents.missing)
+    text += fmt::format("<li>{} is missing</li>\n", escaped(name));
+  return text + "</ul>\n";
+}
+
+std::string table_of(const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "<table class=\"numbers\">\n";
+  for (const auto& row : rows) {
+    const char* cell = &row == rows.data() ? "th" : "td";
+    text += "<tr>";
+    for (const std::string& value : row) text += fmt::format("<{0}>{1}</{0}>", cell, escaped(value));
+    text += "</tr>\n";
+  }
+  return text + "</table>\n";
+}
+
+std::string csv_of(const std::vector<std::vector<std::string>>& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    for (const std::string& value : row) text += (&value == row.data() ? "" : ",") + quoted(value);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string section_of_uniform_sampling(const EnsembleTables& tables, const std::filesystem::path& folder) {
+  const std::vector<std::vector<std::string>> summary = uniform_summary(tables);
+  if (summary.empty()) return "";
+  write_whole_file(folder / "uniform.csv", csv_of(summary));
+  return "<h2>Are all contact states equally likely?</h2>\n"
+         "<p>Perturb-and-resolve [38] and the simulated states beside a uniform sample of the same "
+         "polytopes. "
+         "± is one standard error over the packings. The figures are at the end.</p>\n" +
+         table_of(summary) + "<p class=\"note\">File: figures/uniform.csv</p>\n";
+}
+
+std::string section_of(const Figure& figure, const std::filesystem::path& folder) {
+  const std::string claim =
+      figure.claim.empty() ? "" : fmt::format("<b>Paper:</b> {}<br>", escaped(figure.claim));
+  return fmt::format(
+      "<h2>{}</h2>\n<figure id=\"{}\">\n{}\n<figcaption>{}</figcaption></figure>\n<p>{}<b>Here:</b> "
+      "{}</p>\n<p class=\"note\">Files: figures/{}.svg, .pdf, .csv, .gp</p>\n",
+      escaped(figure.title), figure.id, inline_svg(folder / (figure.id + ".svg"), figure.id),
+      escaped(figure.caption), claim, escaped(figure.finding), figure.id);
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& folder, const EnsembleContents& contents,
+                  const std::vector<Picture>& pictures,
+                  const std::vector<std::pair<std::string, std::string>>& about,
+                  const ProgressCallback& progress) {
+  const std::filesystem::path figures_folder = folder / "figures";
+  std::filesystem::create_directories(figures_folder);
+  const FlatTable& runs = contents.tables.runs;
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Force indeterminacy: "
+      "report</title>\n"
+      "<link rel=\"icon\" href=\"data:,\"><style>";
+  html += kStyle;
+  html += "</style></head><body>\n<h1>Force indeterminacy of an ensemble of packings</h1>\n";
+  html += fmt::format(
+      "<p>{} packings, {} contacts. Forces and distances are in units of mg, the mean weight of a disk. ± is "
+      "one "
+      "standard error over the seeds. The paper is S. McNamara and H. J. Herrmann, Phys. Rev. E 70, 061303 "
+      "(2004), "
+      "N = 95, μ = 0.3, 60 seeds; numbers in brackets are its equations.</p>\n",
+      runs.rows(), contents.tables.contacts.rows());
+  html += "<h2>What was run (Fig. 4)</h2>\n" + table_of_runs(contents.tables);
+  const std::vector<Comparison> comparison = compare_with_paper(contents.tables);
+  write_whole_file(figures_folder / "comparison.csv", csv_of(comparison));
+  html += "<h2>The paper's numbers</h2>\n" + table_of(comparison, true);
+  const std::string other_case = reason_for_no_verdict(contents.tables);
+  html +=
+      fmt::format("<p class=\"note\">{} File: figures/comparison.csv</p>\n",
+                  other_case.empty() ? "\"agrees\": within two standard errors of the difference; where the "
+                                       "paper gives no error, within 10 %."
+                                     : other_case + " Hence there is no verdict.");
+  html += "<h2>Beyond the paper</h2>\n" + table_of(beyond_the_paper(contents.tables), false);
+  html += section_of_uniform_sampling(contents.tables, figures_folder);
+  if (!pictures.empty()) {
+    html += "<h2>Fig. 5: three contact states</h2>\n<div class=\"row\">\n";
+    for (const Picture& picture : pictures) {
+      html += fmt::format("<figure id=\"{0}\">{1}<figcaption>{2}</figcaption></figure>\n", picture.file,
+                          inline_svg(figures_folder / (picture.file + ".svg"), picture.file),
+                          escaped(picture.caption));
+    }
+    html += "</div>\n";
+  }
+  const std::vector<Figure> figures = make_figures(contents.tables);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    if (progress && !progress({.stage = "drawing",
+                               .done = static_cast<std::int64_t>(i),
+                               .total = static_cast<std::int64_t>(figures.size()),
+                               .details = figures[i].id}))
+      throw Interrupted();
+    draw_figure(figures_folder, figures[i]);
+    html += section_of(figures[i], figures_folder);
+  }
+  html += "<h2>Run times</h2>\n" + table_of_times(contents.tables);
+  html += "<h2>Failures</h2>\n" + failures(contents);
+  html += "<h2>Provenance</h2>\n<table>\n";
+  for (const auto& [name, value] : about)
+    html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+  html += fmt::format(
+      "</table>\n<details><summary>Configuration</summary><pre>{}</pre></details>\n</body></html>\n",
+      escaped(contents.config));
+  write_whole_file(folder / "report.html", html);
+}
+
+}  // namespace indet

@@ -1,0 +1,138 @@
+#include "apps/ensemble/presentation/samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace indet {
+
+std::string text_of(const Estimate& estimate, int digits) {
+  if (std::isnan(estimate.value)) return "–";
+  if (std::isnan(estimate.error)) return fmt::format("{:.{}f}", estimate.value, digits);
+  return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, digits, estimate.error, digits);
+}
+
+double largest(const GroupedValues& data) {
+  double high = 0;
+  for (const double value : data.values) {
+    if (std::isfinite(value)) high = std::max(high, value);
+  }
+  return high;
+}
+
+double round_width(double span, int bins) {
+  const double raw = std::max(span / bins, 1e-12);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= raw) return factor * power;
+  }
+  return 10 * power;
+}
+
+Estimate main_maximum(const GroupedValues& data) {
+  const double high = quantile(data, 0.99);
+  return high > 0 ? position_of_maximum(data, 0.1 * high, high, round_width(high, 40)) : Estimate{};
+}
+
+Samples::Samples(const EnsembleTables& tables) : tables_(tables) {
+  std::map<std::int64_t, int> numbers;
+  for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
+    const auto seed = static_cast<std::int64_t>(tables.runs.number("seed", row));
+    // Packings without a seed are independent.
+    const int number = seed < 0 ? groups_ : numbers.try_emplace(seed, groups_).first->second;
+    group_.push_back(number);
+    groups_ = std::max(groups_, number + 1);
+  }
+}
+
+bool Samples::has(const std::vector<std::string>& protocols) const {
+  for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
+    if (std::find(protocols.begin(), protocols.end(), tables_.runs.text("protocol", row)) != protocols.end())
+      return true;
+  }
+  return false;
+}
+
+bool Samples::has_solver_states() const {
+  const std::vector<double> values = tables_.contacts.numbers("solver_d_R");
+  return std::any_of(values.begin(), values.end(), [](double v) { return v == v; });
+}
+
+GroupedValues Samples::of(const std::vector<std::string>& protocols, const std::string& column) const {
+  GroupedValues result;
+  const std::vector<double> run = tables_.contacts.numbers("run");
+  const std::vector<double> values = tables_.contacts.numbers(column);
+  std::vector<bool> wanted;
+  for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
+    const std::string& protocol = tables_.runs.text("protocol", row);
+    wanted.push_back(std::find(protocols.begin(), protocols.end(), protocol) != protocols.end());
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto row = static_cast<std::size_t>(run[i]);
+    if (wanted[row]) result.add(values[i], group_[row]);
+  }
+  result.groups = groups_;
+  return result;
+}
+
+double Samples::mean_force(const std::string& protocol) const {
+  return mean_of(of({protocol}, "R").values).value;
+}
+
+GroupedValues Samples::split_by_force(const std::string& protocol, const std::string& column,
+                                      bool strong) const {
+  const GroupedValues force = of({protocol}, "R");
+  const GroupedValues all = of({protocol}, column);
+  const double mean = mean_of(force.values).value;
+  GroupedValues result;
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    if ((force.values[i] > mean) == strong) result.add(all.values[i], all.group[i]);
+  }
+  result.groups = groups_;
+  return result;
+}
+
+GroupedValues Samples::extremal(const std::string& protocol, int objective, bool solver) const {
+  GroupedValues result;
+  const FlatTable& table = tables_.extremal;
+  const std::vector<double> run = table.numbers("run");
+  const std::vector<double> choice = table.numbers("choice");
+  const std::vector<double> kind = table.numbers("objective");
+  const std::vector<double> bin = table.numbers("bin");
+  const std::vector<double> count = table.numbers("count");
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const auto row = static_cast<std::size_t>(run[i]);
+    if (choice[i] == (solver ? 1 : 0) && kind[i] == objective &&
+        tables_.runs.text("protocol", row) == protocol)
+      result.add(bin[i] + 0.5, group_[row], count[i]);
+  }
+  result.groups = groups_;
+  return result;
+}
+
+GroupedValues Samples::sampled(const std::vector<std::string>& protocols, const std::string& quantity,
+                               int sampling) const {
+  GroupedValues result;
+  const FlatTable& table = tables_.sampled;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto row = static_cast<std::size_t>(table.number("run", i));
+    if (table.number("sampling", i) != sampling || table.text("quantity", i) != quantity) continue;
+    if (std::find(protocols.begin(), protocols.end(), tables_.runs.text("protocol", row)) == protocols.end())
+      continue;
+    result.add(table.number("low", i) + table.number("width", i) / 2, group_[row],
+               table.number("contacts", i));
+  }
+  result.groups = groups_;
+  return result;
+}
+
+std::vector<double> Samples::runs(const std::string& protocol, const std::string& column) const {
+  std::vector<double> result;
+  for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
+    if (tables_.runs.text("protocol", row) == protocol) result.push_back(tables_.runs.number(column, row));
+  }
+  return result;
+}
+
+}  // namespace indet

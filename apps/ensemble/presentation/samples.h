@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/ensemble/tables/table.h"
+#include "libindet/statistics/distribution.h"
+
+namespace indet {
+
+/// "33.1 ± 1.4", the value alone if its error is unknown, "–" if there is none.
+std::string text_of(const Estimate& estimate, int digits = 1);
+
+/// The largest finite value; 0 if there is none.
+double largest(const GroupedValues& data);
+
+/// A width of bins that is 1, 2 or 5 times a power of ten and makes at most `bins` of them.
+double round_width(double span, int bins);
+
+/// Position of the main maximum of a density away from 0: between a tenth of the 99 % quantile and that, in
+/// about 40 bins. NaN where the density only falls.
+Estimate main_maximum(const GroupedValues& data);
+
+/// Columns of the tables of an ensemble as samples, grouped by seed. `tables` must outlive it.
+class Samples {
+ public:
+  explicit Samples(const EnsembleTables& tables);
+
+  /// True if some packing of any of these protocols is there.
+  bool has(const std::vector<std::string>& protocols) const;
+  bool has_solver_states() const;
+  /// A column of the contacts of some protocols.
+  GroupedValues of(const std::vector<std::string>& protocols, const std::string& column) const;
+  /// The same for contacts with more, or less, than the mean normal force of the protocol.
+  GroupedValues split_by_force(const std::string& protocol, const std::string& column, bool strong) const;
+  double mean_force(const std::string& protocol) const;
+  /// R in the extremal states of one kind of objective, the canonical ones or the vertices that the solver
+  /// lands on; bins of 1 mg at their centres.
+  GroupedValues extremal(const std::string& protocol, int objective, bool solver) const;
+  /// A quantity of /table/sampled at the centres of its bins, for one sampling: 0 uniform, 1
+  /// perturb-and-resolve. A value counts as often as there are such contacts in a state.
+  GroupedValues sampled(const std::vector<std::string>& protocols, const std::string& quantity,
+                        int sampling) const;
+  /// A column of the runs of one protocol; NaN where unknown.
+  std::vector<double> runs(const std::string& protocol, const std::string& column) const;
+
+ private:
+  const EnsembleTables& tables_;
+  std::vector<int> group_;  ///< Of each run: number of its seed.
+  int groups_ = 0;
+};
+
+}  // namespace indet

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/ensemble/tables/figure.h"
+#include "apps/ensemble/tables/table.h"
+#include "libindet/io/packing_file.h"
+
+namespace indet {
+
+/// ensemble.h5 (docs/ensemble.md).
+struct EnsembleContents {
+  std::string config;
+  std::string hash;  ///< Of the plan.
+  EnsembleTables tables;
+  std::vector<std::string> missing;  ///< Units that the plan has and the tables lack.
+  std::vector<UnitFailure> failures;
+};
+
+void write_ensemble(const std::filesystem::path& path, const EnsembleContents& contents,
+                    const std::vector<Figure>& figures, const Provenance& provenance);
+
+/// Throws InputError.
+EnsembleContents read_ensemble(const std::filesystem::path& path);
+
+bool file_is_ensemble(const std::filesystem::path& path);
+
+}  // namespace indet

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libindet/sampling/uniform_sampling.h"
+#include "libsim/perturb_sampling.h"
+#include "libsim/scene.h"
+#include "libsim/simulate.h"
+
+namespace indet {
+
+/// What an ensemble is: the packings, and what is done with each.
+struct EnsembleConfig {
+  sim::Scene scene;  ///< Its seed is that of each packing.
+  std::int64_t first_seed = 0;
+  std::int64_t seeds = 60;
+  std::vector<std::string> protocols = {"cd1", "cd2", "md1", "md2"};
+  sim::MolecularDynamicsOptions molecular_dynamics = sim::stiff_preset();
+  std::vector<std::filesystem::path> files;  ///< Packings that are there already.
+  sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
+  /// Packings of each protocol that are sampled uniformly too: those of the first seeds, the first files.
+  std::int64_t uniform_seeds = 60;
+  UniformOptions uniform;     ///< Its seed is that of each packing.
+  bool solver_states = true;  ///< Also dR and dT of the vertices that the solver lands on, as in the paper.
+};
+
+/// One packing of an ensemble.
+struct Unit {
+  int number = 0;        ///< From 0, in the order of the tables.
+  std::string name;      ///< "cd1-0007", or the name of its file; its own file is units/NAME.h5.
+  std::string protocol;  ///< "file" for a packing that was there.
+  std::int64_t seed = -1;
+  std::filesystem::path source;  ///< Of a packing that was there.
+  bool uniform = false;          ///< Also sampled uniformly.
+  double cost = 0;               ///< Estimated seconds on one core.
+  std::string config;            ///< Everything that its results depend on, as TOML.
+  std::string hash;              ///< SHA-256 of `config`.
+};
+
+struct Plan {
+  std::string config;  ///< Of the ensemble, TOML.
+  std::vector<Unit> units;
+
+  /// SHA-256 over names and hashes of all units.
+  std::string hash() const;
+};
+
+/// Lists the packings of an ensemble. Throws InputError if the scene cannot be built, a file cannot be read,
+/// two files have the same name, or there is nothing to do.
+Plan make_plan(const EnsembleConfig& config);
+
+/// The scene and the method of a simulated unit.
+sim::Scene scene_of(const EnsembleConfig& config, const Unit& unit);
+sim::SimulationOptions method_of(const EnsembleConfig& config, const std::string& protocol);
+
+/// DIR/ensemble.toml: which units an ensemble has, so that parts can be joined and missing ones be named.
+void write_plan(const std::filesystem::path& folder, const Plan& plan);
+/// Throws InputError. `config` of the units is not stored.
+Plan read_plan(const std::filesystem::path& folder);
+
+std::filesystem::path unit_path(const std::filesystem::path& folder, const Unit& unit);
+/// Those of all units in each of the folders, whether there is a file or not.
+std::vector<std::filesystem::path> unit_paths(const std::vector<std::filesystem::path>& folders,
+                                              const Plan& plan);
+
+}  // namespace indet

@@ -1,0 +1,145 @@
+#include "apps/ensemble/units/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "apps/ensemble/units/unit_file.h"
+#include "libindet/base/error.h"
+#include "libindet/base/worker_team.h"
+
+namespace indet {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// What the workers share.
+class Batch {
+ public:
+  Batch(const EnsembleConfig& config, const Plan& plan, const std::filesystem::path& folder,
+        const RunOptions& options)
+      : config_(config), plan_(plan), folder_(folder), options_(options) {
+    const int last = options.last < 0 ? static_cast<int>(plan.units.size()) - 1 : options.last;
+    for (const Unit& unit : plan.units) {
+      if (unit.number < options.first || unit.number > last) continue;
+      if (unit_is_done(unit_path(folder, unit), unit)) {
+        ++summary_.skipped;
+      } else {
+        open_.push_back(&unit);
+        total_cost_ += unit.cost;
+      }
+    }
+    std::stable_sort(open_.begin(), open_.end(),
+                     [](const Unit* a, const Unit* b) { return a->cost > b->cost; });
+  }
+
+  RunSummary run() {
+    std::exception_ptr failure;
+    std::thread driver([&] {
+      try {
+        WorkerTeam team(std::min(options_.threads, static_cast<int>(open_.size())));
+        team.run(static_cast<std::int64_t>(open_.size()), [&](int, std::int64_t index) {
+          if (!stop_) work(*open_[static_cast<std::size_t>(index)]);
+        });
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      const std::scoped_lock lock(mutex_);
+      finished_ = true;
+      changed_.notify_all();
+    });
+    watch();
+    driver.join();
+    if (stop_) throw Interrupted();
+    if (failure) std::rethrow_exception(failure);
+    std::sort(summary_.failures.begin(), summary_.failures.end(),
+              [](const UnitFailure& a, const UnitFailure& b) { return a.unit < b.unit; });
+    return summary_;
+  }
+
+ private:
+  /// Reports progress from the calling thread until the workers are done.
+  void watch() {
+    std::unique_lock lock(mutex_);
+    while (!finished_) {
+      changed_.wait_for(lock, milliseconds(100));
+      const std::string details =
+          fmt::format("{} of {} packings{}", summary_.done, open_.size(),
+                      summary_.failures.empty() ? "" : fmt::format(", {} failed", summary_.failures.size()));
+      const Progress progress{.stage = "ensemble",
+                              .done = static_cast<std::int64_t>(1000 * done_cost_),
+                              .total = static_cast<std::int64_t>(1000 * total_cost_),
+                              .details = details};
+      lock.unlock();
+      if (options_.progress && !options_.progress(progress)) stop_ = true;
+      lock.lock();
+    }
+  }
+
+  void work(const Unit& unit) {
+    try {
+      const UnitResult result =
+          compute_unit(config_, unit, source(unit), start(unit), [this](const Progress&) { return !stop_; });
+      const std::scoped_lock lock(hdf5_);
+      write_unit(unit_path(folder_, unit), unit, result, options_.provenance);
+    } catch (const Interrupted&) {
+      return;
+    } catch (const std::exception& error) {
+      const std::scoped_lock lock(mutex_);
+      summary_.failures.push_back({unit.name, error.what()});
+      done_cost_ += unit.cost;
+      return;
+    }
+    const std::scoped_lock lock(mutex_);
+    ++summary_.done;
+    done_cost_ += unit.cost;
+  }
+
+  std::optional<Packing> source(const Unit& unit) {
+    if (unit.source.empty()) return std::nullopt;
+    const std::scoped_lock lock(hdf5_);
+    return read_packing(unit.source);
+  }
+
+  /// The cd1 packing of the same seed, if it is there already.
+  std::optional<Packing> start(const Unit& unit) {
+    if (unit.protocol != "cd2" && unit.protocol != "md2") return std::nullopt;
+    for (const Unit& other : plan_.units) {
+      if (other.protocol != "cd1" || other.seed != unit.seed) continue;
+      const std::filesystem::path path = unit_path(folder_, other);
+      const std::scoped_lock lock(hdf5_);
+      if (unit_is_done(path, other)) return read_packing(path);
+    }
+    return std::nullopt;
+  }
+
+  const EnsembleConfig& config_;
+  const Plan& plan_;
+  const std::filesystem::path& folder_;
+  const RunOptions& options_;
+  std::vector<const Unit*> open_;
+  double total_cost_ = 0;
+  std::mutex hdf5_;
+  std::mutex mutex_;  ///< Guards the members below.
+  std::condition_variable changed_;
+  RunSummary summary_;
+  double done_cost_ = 0;
+  bool finished_ = false;
+  std::atomic<bool> stop_ = false;
+};
+
+}  // namespace
+
+RunSummary run_units(const EnsembleConfig& config, const Plan& plan, const std::filesystem::path& folder,
+                     const RunOptions& options) {
+  std::filesystem::create_directories(folder / "units");
+  return Batch(config, plan, folder, options).run();
+}
+
+}  // namespace indet

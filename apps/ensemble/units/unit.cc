@@ -1,0 +1,140 @@
+#include "apps/ensemble/units/unit.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "apps/bridge/perturb_record.h"
+#include "apps/bridge/simulation_values.h"
+#include "libindet/base/error.h"
+#include "libindet/range/analyze.h"
+
+namespace indet {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& scene, const sim::World& world,
+                             const std::string& protocol, const ProgressCallback& progress) {
+  sim::SimulationOptions options = method_of(config, protocol);
+  options.time_limit = sim::default_time_limit(world, scene.height);
+  if (const auto reason = options.defect(world)) throw InputError(*reason);
+  sim::Simulation result = sim::simulate(world, {}, options, {.progress = progress});
+  if (!result.polished.balanced)
+    throw LibraryError(protocol + ": the forces do not balance: " + result.polished.reason);
+  return result;
+}
+
+void simulate_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& first,
+                   const ProgressCallback& progress, UnitResult& result) {
+  const Stopwatch watch;
+  const sim::Scene scene = scene_of(config, unit);
+  sim::World world = sim::build(scene);
+  if (unit.protocol.back() == '2') {
+    const Packing start = first ? *first : run_protocol(config, scene, world, "cd1", progress).packing;
+    world = sim::world_of(start, scene.friction);
+    world.bring_to_rest();
+  }
+  const sim::Simulation simulation = run_protocol(config, scene, world, unit.protocol, progress);
+  result.packing = simulation.packing;
+  result.packing.origin = {.protocol = unit.protocol, .seed = unit.seed, .config = unit.config};
+  result.simulation = record_of(simulation, method_of(config, unit.protocol));
+  result.seconds["simulate"] = watch.seconds();
+}
+
+void analyze_unit(const EnsembleConfig& config, const ProgressCallback& progress, UnitResult& result) {
+  AnalyzeOptions options;
+  options.progress = progress;
+  {
+    const Stopwatch watch;
+    result.ranges = analyze(result.packing, options);
+    result.seconds["analyze"] = watch.seconds();
+  }
+  result.extremal = count_extremal_forces(result.ranges);
+  if (!config.solver_states) return;
+  const Stopwatch watch;
+  options.canonical_states = false;
+  const ForceRanges landed = analyze(result.packing, options);
+  result.solver_d_R = landed.d_R;
+  result.solver_d_T = landed.d_T;
+  result.solver_extremal = count_extremal_forces(landed);
+  result.seconds["analyze_solver_states"] = watch.seconds();
+}
+
+/// The accepted solutions in the order in which they were found: 2M × S, in mg.
+Eigen::MatrixXd chain_of(const sim::PerturbEnsemble& ensemble, const Packing& packing) {
+  Eigen::MatrixXd chain(2 * packing.contact_count(), ensemble.accepted);
+  Eigen::Index column = 0;
+  for (const sim::PerturbSample& sample : ensemble.samples) {
+    if (sample.accepted) chain.col(column++) = sample.forces / packing.force_unit();
+  }
+  return chain;
+}
+
+/// Perturb-and-resolve; returns its states.
+Eigen::MatrixXd sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
+                            UnitResult& result) {
+  if (config.sampling.samples <= 0 || !result.packing.has_simulated_forces()) return {};
+  if (result.packing.contacts.empty()) return {};
+  const Stopwatch watch;
+  sim::PerturbOptions options = config.sampling;
+  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
+  const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(result.packing, options, progress);
+  result.sampling = record_of(ensemble, options);
+  result.seconds["sample"] = watch.seconds();
+  return chain_of(ensemble, result.packing);
+}
+
+void sample_unit_uniformly(const EnsembleConfig& config, const Unit& unit, const Eigen::MatrixXd& chain,
+                           const ProgressCallback& progress, UnitResult& result) {
+  const Stopwatch watch;
+  UniformOptions options = config.uniform;
+  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
+  options.progress = progress;
+  result.uniform = sample_uniformly(result.packing, result.ranges, chain, options);
+  result.seconds["sample_uniform"] = watch.seconds();
+}
+
+}  // namespace
+
+ExtremalForces count_extremal_forces(const ForceRanges& ranges) {
+  ExtremalForces result;
+  const Eigen::Index contacts = ranges.vertex.rows();
+  for (std::size_t column = 0; column < 4; ++column) {
+    std::vector<std::int32_t>& counts = result.counts[column];
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      const int row = ranges.vertex(i, static_cast<Eigen::Index>(column));
+      if (row < 0) continue;
+      for (Eigen::Index c = 0; c < contacts; ++c) {
+        const double force = std::max(0.0, ranges.states(row, 2 * c) / ranges.force_unit);
+        const auto bin = static_cast<std::size_t>(force);
+        if (bin >= counts.size()) counts.resize(bin + 1, 0);
+        ++counts[bin];
+      }
+    }
+  }
+  return result;
+}
+
+UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& given,
+                        const std::optional<Packing>& first, const ProgressCallback& progress) {
+  UnitResult result;
+  if (given) {
+    result.packing = *given;
+  } else {
+    simulate_unit(config, unit, first, progress, result);
+  }
+  analyze_unit(config, progress, result);
+  const Eigen::MatrixXd chain = sample_unit(config, unit, progress, result);
+  if (unit.uniform) sample_unit_uniformly(config, unit, chain, progress, result);
+  return result;
+}
+
+}  // namespace indet

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/ensemble/units/plan.h"
+#include "apps/ensemble/units/uniform_step.h"
+#include "libindet/base/progress.h"
+#include "libindet/io/sampling_file.h"
+#include "libindet/io/simulation_file.h"
+#include "libindet/range/force_ranges.h"
+
+namespace indet {
+
+/// How often the normal force of a contact lies in [k, k + 1) mg in the extremal states, one row for each
+/// objective (R_min, R_max, T_min, T_max): each of the M objectives of a kind contributes the M forces of its
+/// state.
+struct ExtremalForces {
+  std::array<std::vector<std::int32_t>, 4> counts;
+};
+
+ExtremalForces count_extremal_forces(const ForceRanges& ranges);
+
+/// Everything that was found about one packing.
+struct UnitResult {
+  Packing packing;
+  std::optional<SimulationRecord> simulation;
+  ForceRanges ranges;
+  Eigen::VectorXd solver_d_R, solver_d_T;  ///< [24] with the vertices that the solver lands on; or empty.
+  ExtremalForces extremal;                 ///< Of the canonical states.
+  ExtremalForces solver_extremal;          ///< Of the vertices that the solver lands on; or empty.
+  std::optional<SamplingRecord> sampling;
+  std::optional<UniformResult> uniform;
+  std::map<std::string, double> seconds;
+};
+
+/// Simulates (or takes `given`, the packing of a file), analyses and samples one packing, on the calling
+/// thread. `first`: the cd1 packing that cd2 and md2 start from; where it is missing it is simulated. The
+/// result is the same either way. Throws InputError or LibraryError if there is no packing with balanced
+/// forces; Interrupted.
+UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& given,
+                        const std::optional<Packing>& first, const ProgressCallback& progress);
+
+}  // namespace indet

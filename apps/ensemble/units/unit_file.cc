@@ -1,0 +1,85 @@
+#include "apps/ensemble/units/unit_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "libindet/base/error.h"
+#include "libindet/io/ranges_file.h"
+#include "libindet/io/whole_file.h"
+
+namespace indet {
+namespace {
+
+void write_vector(Hdf5File& file, const std::string& path, const Eigen::VectorXd& values,
+                  const Label& label) {
+  const auto size = static_cast<std::size_t>(values.size());
+  file.write(path, std::span<const double>(values.data(), size), {size}, label);
+}
+
+void write_counts(Hdf5File& file, const std::string& path, const ExtremalForces& forces, const char* which) {
+  std::size_t bins = 0;
+  for (const auto& counts : forces.counts) bins = std::max(bins, counts.size());
+  std::vector<std::int32_t> values;
+  for (auto counts : forces.counts) {
+    counts.resize(bins, 0);
+    values.insert(values.end(), counts.begin(), counts.end());
+  }
+  file.write(
+      path, values, {4, bins},
+      {"1", fmt::format("how often R lies in [k, k+1) mg in the states of R_min, R_max, T_min, T_max; {}",
+                        which)});
+}
+
+void write_ensemble_part(Hdf5File& file, const Unit& unit, const UnitResult& result) {
+  file.make_group("/ensemble");
+  file.set_attribute("/ensemble", "unit", unit.name);
+  file.set_attribute("/ensemble", "hash", unit.hash);
+  file.set_attribute("/ensemble", "config", unit.config);
+  if (result.solver_d_R.size() > 0) {
+    write_vector(
+        file, "/ensemble/solver_d_R", result.solver_d_R,
+        {"1", "global indeterminacy of the normal force with the vertices that the solver lands on"});
+    write_vector(
+        file, "/ensemble/solver_d_T", result.solver_d_T,
+        {"1", "global indeterminacy of the tangential force with the vertices that the solver lands on"});
+    write_counts(file, "/ensemble/solver_extremal_R", result.solver_extremal,
+                 "vertices that the solver lands on");
+  }
+  write_counts(file, "/ensemble/extremal_R", result.extremal, "canonical states");
+}
+
+}  // namespace
+
+void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitResult& result,
+                const Provenance& provenance) {
+  Hdf5File file = Hdf5File::create(path);
+  write_header(file);
+  write_packing_part(file, result.packing);
+  if (result.simulation) write_simulation_part(file, *result.simulation);
+  write_ranges_part(file, result.ranges);
+  if (result.sampling) write_sampling_part(file, *result.sampling);
+  if (result.uniform) write_uniform_part(file, *result.uniform);
+  write_ensemble_part(file, unit, result);
+  Provenance all = provenance;
+  all.seconds = result.ranges.seconds;
+  all.seconds.insert(result.seconds.begin(), result.seconds.end());
+  write_provenance_part(file, all);
+  write_work_part(file, result.ranges);
+  seal(file);
+  remove_leftovers(path);
+}
+
+bool unit_is_done(const std::filesystem::path& path, const Unit& unit) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return false;
+  try {
+    const Hdf5File file = open_indet_file(path);
+    return file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == unit.hash;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace indet
