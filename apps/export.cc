@@ -12,10 +12,10 @@
 #include "apps/command.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/drawing/packing_picture.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/table.h"
-#include "libindet/drawing/packing_picture.h"
 
 namespace indet::app {
 namespace {
@@ -62,7 +62,7 @@ ChosenState choose_state(const ExportOptions& options, const Packing& packing,
                          const std::optional<ForceRanges>& ranges) {
   const StateName name = parse_state(options.state).value();
   if (name.kind == "sim") {
-    return {packing.simulated_forces(),
+    return {packing.simulated_forces().value(),
             packing.has_simulated_forces() ? "simulated state" : "forces unknown"};
   }
   const ForceRanges& r = need_ranges(ranges, options.file, "--state " + options.state);

@@ -11,8 +11,8 @@
 #include "apps/ensemble/presentation/html_report.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
-#include "libindet/io/ranges_file.h"
 #include "libindet/drawing/packing_picture.h"
+#include "libindet/io/ranges_file.h"
 
 namespace indet::app {
 namespace {
@@ -35,15 +35,16 @@ std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& t
     const ForceRanges ranges = read_ranges(first);
     if (ranges.largest_norm < 0) continue;
     const fs::path figures = folder / "figures";
-    draw_forces(figures / "fig05a.svg", cd1, cd1.simulated_forces(), name);
-    draw_forces(figures / "fig05b.svg", md2, md2.simulated_forces(), second.stem().string());
+    draw_forces(figures / "fig05a.svg", cd1, cd1.simulated_forces().value(), name);
+    draw_forces(figures / "fig05b.svg", md2, md2.simulated_forces().value(), second.stem().string());
     draw_forces(figures / "fig05c.svg", cd1, ranges.states.row(ranges.largest_norm).transpose(),
                 "extremal state");
     const double mg = cd1.force_unit();
     pictures.push_back({"fig05a", fmt::format("CD-1: {} contacts, norm {:.0f} mg", cd1.contact_count(),
-                                              cd1.simulated_forces().norm() / mg)});
-    pictures.push_back({"fig05b", fmt::format("MD-2 from it: {} contacts, norm {:.0f} mg",
-                                              md2.contact_count(), md2.simulated_forces().norm() / mg)});
+                                              cd1.simulated_forces().value().norm() / mg)});
+    pictures.push_back(
+        {"fig05b", fmt::format("MD-2 from it: {} contacts, norm {:.0f} mg", md2.contact_count(),
+                               md2.simulated_forces().value().norm() / mg)});
     pictures.push_back(
         {"fig05c", fmt::format("The extremal state of the CD-1 packing of largest norm, {:.0f} mg",
                                ranges.norm[ranges.largest_norm] / mg)});

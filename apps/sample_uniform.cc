@@ -11,6 +11,7 @@
 #include "apps/bridge/uniform_record.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/equilibrium/contact_state.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/sampling_file.h"
 #include "libindet/range/analyze.h"
@@ -23,7 +24,7 @@ namespace {
 
 /// The contacts whose forces grow along the ray, strongest first; largest entry 1.
 std::string describe_ray(const Packing& packing, const ForcePolytope& polytope) {
-  Eigen::VectorXd forces = contact_state(polytope, polytope.ray);
+  Eigen::VectorXd forces = polytope.problem.state(polytope.ray).value();
   forces /= forces.lpNorm<Eigen::Infinity>();
   for (double& force : forces) force = std::abs(force) < tolerance::kRay ? 0 : force;  // rounding around 0
   std::vector<int> growing;
@@ -54,8 +55,9 @@ struct Findings {
 };
 
 std::map<std::string, double> numbers_of(const Findings& f, const UniformSettings& settings) {
-  std::map<std::string, double> numbers = f.body ? numbers_of(f.polytope, f.sample, settings.sampling)
-                                                 : numbers_of_point(f.sample, settings.sampling);
+  std::map<std::string, double> numbers =
+      f.body ? numbers_of(f.polytope, f.sample, settings.sampling)
+             : numbers_of_point(f.sample, f.polytope.problem.units, settings.sampling);
   numbers["worst_residual"] = f.worst_residual;
   if (f.placement) numbers.merge(numbers_of(*f.placement));
   if (f.shape) {
@@ -74,15 +76,16 @@ std::map<std::string, double> numbers_of(const Findings& f, const UniformSetting
 
 void print(const Packing& packing, const Findings& f, const UniformSettings& settings) {
   const UniformSample& s = f.sample;
+  const auto mg = [&](const InternalForce& force) { return f.polytope.problem.units.weights(force).value(); };
   if (!f.body) {
-    fmt::print("The polytope is a point: one contact state, ‖F‖ = {:.4g} mg\n", s.mean_norm);
+    fmt::print("The polytope is a point: one contact state, ‖F‖ = {:.4g} mg\n", mg(s.mean_norm));
     return;
   }
   fmt::print("polytope of contact states: dimension {}, {} independent block{}\n", f.polytope.dim,
              f.polytope.blocks.size(), f.polytope.blocks.size() == 1 ? "" : "s");
   fmt::print(
       "uniform: r = {:.4g} ± {:.2g} mg, spread {:.4g} mg; ‖F‖ = {:.4g} mg, standard deviation {:.2g} mg\n",
-      s.r, s.r_error, s.spread, s.mean_norm, s.norm_deviation);
+      mg(s.r), mg(s.r_error), mg(s.spread), mg(s.mean_norm), mg(s.norm_deviation));
   const std::string slowest =
       s.slowest == 2 * packing.contact_count()
           ? "‖F‖"
@@ -133,12 +136,23 @@ void find_shape(const std::string& file, const Packing& packing, const UniformSe
   f.volume = estimate_volume(*f.body, f.sample, volume);
 }
 
+/// Recomputes the balance of states, contact by contact from the packing. Throws LibraryError if one does not
+/// balance.
 void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findings& f) {
-  const double unit = packing.force_unit();
+  const ForceUnits& units = f.polytope.problem.units;
   for (Eigen::Index i = 0; i < states.cols(); ++i) {
     if (packing.disk_count() == 0) continue;
-    f.worst_residual =
-        std::max(f.worst_residual, equilibrium_residual(packing, unit * states.col(i)).cwiseAbs().maxCoeff());
+    const InternalForces state(states.col(i));
+    const double largest = state.value().size() > 0 ? state.value().lpNorm<Eigen::Infinity>() : 0.0;
+    const double allowed =
+        units.weights(InternalForce(tolerance::kPrimalResidual * std::max(1.0, largest))).value();
+    const double residual = equilibrium_residual(packing, units.scene(state)).cwiseAbs().maxCoeff();
+    f.worst_residual = std::max(f.worst_residual, residual);
+    if (!(residual <= allowed)) {
+      throw LibraryError(fmt::format(
+          "a sampled contact state does not balance the load: the net force on a disk is {:.1e} mg",
+          residual));
+    }
   }
 }
 
@@ -146,7 +160,6 @@ void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findin
 
 int sample_uniformly(const std::string& file, const std::string& output, const Packing& packing,
                      UniformSettings settings, const Context& context) {
-  const double unit = packing.force_unit();
   settings.sampling.threads = context.thread_count();
   settings.sampling.progress = context.progress();
   if (const auto reason = settings.sampling.defect()) throw UsageError(*reason);
@@ -180,16 +193,17 @@ int sample_uniformly(const std::string& file, const std::string& output, const P
     }
   }
   const int states = f.body ? std::min(settings.states, f.sample.count()) : 0;
-  if (f.body) check_balance(packing, some_states(*f.body, f.sample, std::max(states, 1)), f);
-  check_balance(packing, f.sample.center, f);
+  if (f.body) check_balance(packing, some_states(*f.body, f.sample, std::max(states, 1)).value(), f);
+  check_balance(packing, f.sample.center.value(), f);
 
-  SamplingRecord record{"uniform", unit * f.sample.center, numbers_of(f, settings), {}};
+  const ForceUnits& units = f.polytope.problem.units;
+  SamplingRecord record{"uniform", units.scene(f.sample.center).value(), numbers_of(f, settings), {}};
   if (f.body) {
-    record.components = components_of(*f.body, f.sample, unit);
-    record.components->states = unit * some_states(*f.body, f.sample, states);
+    record.components = components_of(*f.body, f.sample);
+    record.components->states = units.scene(some_states(*f.body, f.sample, states)).value();
     if (settings.covariance)
-      record.components->covariance =
-          unit * unit * f.body->frame * f.sample.covariance * f.body->frame.transpose();
+      record.components->covariance = units.internal_in_scene() * units.internal_in_scene() * f.body->frame *
+                                      f.sample.covariance * f.body->frame.transpose();
   }
   if (!output.empty()) {
     Provenance provenance{context.arguments, context.resolved_config, {}, {}};

@@ -82,7 +82,7 @@ void summarise(const Packing& packing, PerturbEnsemble& ensemble) {
   ensemble.spread = std::sqrt(std::max(0.0, squares / n - mean * mean));
   const double variance = std::max(0.0, fourth / n - squares / n * (squares / n));
   ensemble.r_error = ensemble.r > 0 ? std::sqrt(variance / n) / (2 * ensemble.r) : 0;
-  ensemble.start_distance = (packing.simulated_forces() - ensemble.center).norm() / unit;
+  ensemble.start_distance = (packing.simulated_forces().value() - ensemble.center).norm() / unit;
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions
   ensemble.samples.resize(static_cast<std::size_t>(options.samples));
   // Sample i belongs to chain i mod chains. Chains advance together, one round of samples at a time.
   const int chains = options.chains;
-  std::vector<Eigen::VectorXd> ends(static_cast<std::size_t>(chains), packing.simulated_forces());
+  std::vector<Eigen::VectorXd> ends(static_cast<std::size_t>(chains), packing.simulated_forces().value());
   WorkerTeam team(std::clamp(options.threads, 1, chains));
   for (int begin = 0; begin < options.samples; begin += kRounds * chains) {
     const int end = std::min(options.samples, begin + kRounds * chains);

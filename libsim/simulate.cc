@@ -152,7 +152,7 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
   // Elastic forces of a sliding contact are off the limit by what damping still contributes.
   if (!rigid)
     polish_options.sliding = std::max(polish_options.sliding, 10 * options.molecular_dynamics.residual);
-  result.polished = polish(result.raw, result.raw.simulated_forces(), polish_options);
+  result.polished = polish(result.raw, result.raw.simulated_forces().value(), polish_options);
   result.packing = result.raw;
   const double unit = result.raw.force_unit();
   if (result.polished.balanced) {

@@ -5,21 +5,23 @@
 
 namespace indet {
 
-std::map<std::string, double> numbers_of_point(const UniformSample& sample, const UniformOptions& options) {
+std::map<std::string, double> numbers_of_point(const UniformSample& sample, const ForceUnits& units,
+                                               const UniformOptions& options) {
   return {{"dim", 0},
           {"blocks", 0},
           {"seed", static_cast<double>(options.seed)},
-          {"r", sample.r},
-          {"r_error", sample.r_error},
-          {"spread", sample.spread},
-          {"mean_norm", sample.mean_norm},
-          {"norm_deviation", sample.norm_deviation},
+          {"r", units.weights(sample.r).value()},
+          {"r_error", units.weights(sample.r_error).value()},
+          {"spread", units.weights(sample.spread).value()},
+          {"mean_norm", units.weights(sample.mean_norm).value()},
+          {"norm_deviation", units.weights(sample.norm_deviation).value()},
           {"converged", sample.converged ? 1 : 0}};
 }
 
 std::map<std::string, double> numbers_of(const ForcePolytope& polytope, const UniformSample& sample,
                                          const UniformOptions& options) {
-  std::map<std::string, double> numbers = numbers_of_point(sample, options);
+  const ForceUnits& units = polytope.problem.units;
+  std::map<std::string, double> numbers = numbers_of_point(sample, units, options);
   numbers["dim"] = polytope.dim;
   numbers["blocks"] = static_cast<double>(polytope.blocks.size());
   numbers.insert({{"requested", options.effective},
@@ -34,8 +36,8 @@ std::map<std::string, double> numbers_of(const ForcePolytope& polytope, const Un
                   {"bulk_ess", sample.bulk},
                   {"tail_ess", sample.tail},
                   {"slowest", sample.slowest},
-                  {"worst_slack", sample.worst_slack},
-                  {"inscribed_radius", sample.ball.radius}});
+                  {"worst_slack", units.weights(InternalForce(sample.worst_slack)).value()},
+                  {"inscribed_radius", units.weights(InternalForce(sample.ball.radius)).value()}});
   return numbers;
 }
 
@@ -57,10 +59,10 @@ std::map<std::string, double> numbers_of(const Placement& placement) {
   return numbers;
 }
 
-ComponentRecord components_of(const ConvexBody& body, const UniformSample& sample, double unit) {
+ComponentRecord components_of(const ConvexBody& body, const UniformSample& sample) {
   const Eigen::Index count = body.frame.rows();
   ComponentRecord record;
-  record.deviation = unit * sample.deviation;
+  record.deviation = body.units.scene(sample.deviation).value();
   record.quantile_levels.resize(5);
   record.quantile_levels << 0.05, 0.25, 0.5, 0.75, 0.95;
   record.quantiles.resize(count, 5);
@@ -72,33 +74,30 @@ ComponentRecord components_of(const ConvexBody& body, const UniformSample& sampl
     record.rhat[k] = c.rhat;
     record.bulk[k] = c.bulk;
     record.tail[k] = c.tail;
-    Eigen::VectorXd values = component_of(body, sample, static_cast<int>(k));
+    Eigen::VectorXd values = body.units.scene(component_of(body, sample, static_cast<int>(k))).value();
     std::sort(values.begin(), values.end());
     for (int q = 0; q < 5; ++q) {
-      record.quantiles(k, q) =
-          unit * sorted_quantile({values.data(), static_cast<std::size_t>(values.size())},
-                                 record.quantile_levels[q]);
+      record.quantiles(k, q) = sorted_quantile({values.data(), static_cast<std::size_t>(values.size())},
+                                               record.quantile_levels[q]);
     }
   }
   return record;
 }
 
-Eigen::MatrixXd some_states(const ConvexBody& body, const UniformSample& sample, int count) {
-  Eigen::MatrixXd states(body.frame.rows(), count);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Index from = static_cast<Eigen::Index>(i) * sample.count() / count;
-    states.col(i) = body.origin + body.frame * sample.z.col(from);
-  }
-  return states;
+InternalStates some_states(const ConvexBody& body, const UniformSample& sample, int count) {
+  Eigen::MatrixXd z(body.dim(), count);
+  for (int i = 0; i < count; ++i)
+    z.col(i) = sample.z.col(static_cast<Eigen::Index>(i) * sample.count() / count);
+  return body.states(z);
 }
 
 UniformSample sample_of_point(const ForcePolytope& polytope) {
   UniformSample sample;
   sample.converged = true;
-  sample.center = contact_state(polytope, polytope.lightest);
-  sample.deviation = Eigen::VectorXd::Zero(sample.center.size());
-  sample.r = sample.r_error = sample.spread = sample.norm_deviation = 0;
-  sample.mean_norm = sample.center.norm();
+  sample.center = polytope.problem.state(polytope.lightest);
+  sample.deviation = InternalForces(Eigen::VectorXd::Zero(sample.center.value().size()));
+  sample.r = sample.r_error = sample.spread = sample.norm_deviation = InternalForce(0);
+  sample.mean_norm = InternalForce(sample.center.value().norm());
   return sample;
 }
 

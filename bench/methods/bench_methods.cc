@@ -60,12 +60,13 @@ Tally our_search(const Job& job, SearchOptions options, bool auto_formulation = 
     Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
     for (std::size_t k = 0; k < block.edges.size(); ++k) {
       weight[static_cast<Eigen::Index>(k)] =
-          job.polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])].R;
+          job.polytope.problem.edges[static_cast<std::size_t>(block.edges[k])].R;
     }
     if (auto_formulation) options.formulation = choose_formulation(block.set.dim());
-    const Basis start = options.method == Method::kPivotingPaper
-                            ? first_extremal_point(job.packing, job.polytope, block, job.lp, paper)
-                            : block.lightest;
+    const Basis start =
+        options.method == Method::kPivotingPaper
+            ? first_extremal_point(job.packing.simulated_forces(), job.polytope, block, job.lp, paper)
+            : block.lightest;
     const SearchResult found = search_extrema(block.set, components, weight, start, options);
     tally.solves += found.solves;
     tally.pivots += found.pivots;

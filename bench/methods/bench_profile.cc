@@ -63,8 +63,7 @@ double continued_fraction(const ForcePolytope& polytope, Formulation formulation
     components.push_back({objectives[i].on_edges, true, true});
   Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
-    weight[static_cast<Eigen::Index>(k)] =
-        polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])].R;
+    weight[static_cast<Eigen::Index>(k)] = polytope.problem.edges[static_cast<std::size_t>(block.edges[k])].R;
   }
   SearchOptions options;
   options.formulation = formulation;

@@ -15,7 +15,7 @@ namespace indet::bench {
 std::vector<Objective> natural_objectives(const ForcePolytope& polytope, const PolytopeBlock& block) {
   std::map<int, std::pair<std::vector<std::pair<int, double>>, std::vector<std::pair<int, double>>>> contacts;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
-    const Edge& edge = polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])];
+    const Edge& edge = polytope.problem.edges[static_cast<std::size_t>(block.edges[k])];
     auto& [normal, tangential] = contacts[edge.contact.value()];
     normal.emplace_back(static_cast<int>(k), edge.R);
     if (edge.T != 0) tangential.emplace_back(static_cast<int>(k), edge.T);

@@ -89,7 +89,7 @@ void measure(const std::string& name, const ConvexBody& body, const Rounding& ro
   double effective = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= body.frame.rows(); ++k) {
     if (k < body.frame.rows() && body.frame.row(k).norm() < 1e-12) continue;
-    const Eigen::VectorXd values = component_of(body, sample, k);
+    const Eigen::VectorXd values = component_of(body, sample, k).value();
     const Convergence c = assessor.assess({values.data(), static_cast<std::size_t>(values.size())});
     if (std::isnan(c.bulk)) continue;
     rhat = std::max(rhat, c.rhat);

@@ -9,7 +9,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/contact/contact_matrix.h"
+#include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 
@@ -30,7 +30,7 @@ BalanceReport report_balance(const ImportedPacking& imported) {
   report.forces_known = packing.has_simulated_forces();
   if (!report.forces_known) return report;
 
-  const Eigen::VectorXd forces = packing.simulated_forces();
+  const SceneForces forces = packing.simulated_forces();
   const auto residual = equilibrium_residual(packing, forces);
   for (int i = 0; i < packing.disk_count(); ++i) {
     const double force = std::hypot(residual(i, 0), residual(i, 1));

@@ -33,7 +33,7 @@ double norm_bound(const Eigen::SparseMatrix<double>& matrix) {
 }
 
 /// Replaces the sparse result by one from the singular values.
-void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& wrench,
+void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& b,
                                double scale, NullSpace& result) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(matrix),
                                            Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -49,7 +49,7 @@ void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const 
   result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
                      result.largest_rejected > tolerance::kNoise * scale;
 
-  const Eigen::VectorXd projected = svd.matrixU().leftCols(result.rank).transpose() * -wrench;
+  const Eigen::VectorXd projected = svd.matrixU().leftCols(result.rank).transpose() * b;
   result.particular = svd.matrixV().leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rows(Eigen::MatrixXd(matrix.transpose()));
   result.independent_rows.assign(rows.colsPermutation().indices().begin(),
@@ -59,18 +59,19 @@ void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const 
 
 }  // namespace
 
-NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& wrench) {
+NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& b) {
   NullSpace result;
   if (matrix.rows() == 0 || matrix.cols() == 0) {
     result.nullity = static_cast<int>(matrix.cols());
     result.basis = Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols());
     result.particular = Eigen::VectorXd::Zero(matrix.cols());
     result.smallest_accepted = std::numeric_limits<double>::infinity();
-    if (wrench.size() > 0 && wrench.cwiseAbs().maxCoeff() > 0) result.unbalanced = wrench;
+    if (b.size() > 0 && b.cwiseAbs().maxCoeff() > 0) result.unbalanced = -b;
     return result;
   }
   const double scale = norm_bound(matrix);
-  const SparseQr qr(matrix.transpose(), tolerance::kRankReject * scale);
+  result.qr = std::make_shared<SparseQr>(matrix.transpose(), tolerance::kRankReject * scale);
+  const SparseQr& qr = *result.qr;
   result.rank = qr.rank();
   result.nullity = static_cast<int>(matrix.cols()) - result.rank;
   result.smallest_accepted = qr.smallest_accepted();
@@ -78,31 +79,45 @@ NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Ei
   result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
                      result.largest_rejected > tolerance::kNoise * scale;
   if (result.ambiguous && std::max(matrix.rows(), matrix.cols()) <= kDenseLimit) {
-    decide_by_singular_values(matrix, wrench, scale, result);
+    decide_by_singular_values(matrix, b, scale, result);
   } else {
     result.basis = qr.left_kernel();
     result.independent_rows = qr.independent_columns();
-    result.particular = qr.solve_transposed(-wrench);
-    result.particular += qr.solve_transposed(-wrench - matrix * result.particular);  // one step of refinement
+    result.particular = qr.solve_transposed(b);
+    result.particular += qr.solve_transposed(b - matrix * result.particular);  // one step of refinement
     result.particular -= result.basis * (result.basis.transpose() * result.particular);
   }
 
   // The residual that is left is orthogonal to the range of c only in part: project it onto the left kernel.
-  const Eigen::VectorXd residual = wrench + matrix * result.particular;
+  const Eigen::VectorXd residual = matrix * result.particular - b;
   const double allowed =
       tolerance::kPrimalResidual * std::max(1.0, result.particular.lpNorm<Eigen::Infinity>());
   if (residual.lpNorm<Eigen::Infinity>() > allowed && result.rank < matrix.rows()) {
     const Eigen::MatrixXd left = SparseQr(matrix, tolerance::kRankReject * scale).left_kernel();
-    const Eigen::VectorXd unbalanced = left * (left.transpose() * wrench);
+    const Eigen::VectorXd unbalanced = left * (left.transpose() * -b);
     if (unbalanced.lpNorm<Eigen::Infinity>() > tolerance::kPrimalResidual) result.unbalanced = unbalanced;
   }
   return result;
 }
 
-Eigen::VectorXd motion_from_contacts(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& q) {
-  if (matrix.rows() == 0 || matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
-  const SparseQr qr(matrix.transpose(), tolerance::kRankReject * norm_bound(matrix));
-  return qr.solve(q);
+Eigen::VectorXd motion_from_contacts(const NullSpace& null_space, int equations, const Eigen::VectorXd& q) {
+  return null_space.qr ? null_space.qr->solve(q) : Eigen::VectorXd::Zero(equations);
+}
+
+Eigen::MatrixXd right_inverse(const NullSpace& null_space, const Eigen::SparseMatrix<double>& matrix) {
+  const std::vector<int>& rows = null_space.independent_rows;
+  const auto rank = static_cast<Eigen::Index>(rows.size());
+  if (rank == 0) return Eigen::MatrixXd(matrix.cols(), 0);
+  if (null_space.qr->independent_columns() == rows) {
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(matrix.rows(), rank);
+    for (Eigen::Index k = 0; k < rank; ++k) unit(rows[static_cast<std::size_t>(k)], k) = 1;
+    return null_space.qr->solve_transposed_columns(unit);
+  }
+  // The singular values have overruled the sparse decomposition.
+  Eigen::SparseMatrix<double> selection(matrix.rows(), rank);
+  for (Eigen::Index k = 0; k < rank; ++k) selection.insert(rows[static_cast<std::size_t>(k)], k) = 1;
+  const Eigen::SparseMatrix<double> columns = matrix.transpose() * selection;
+  return SparseQr(columns, 0).solve_transposed_columns(Eigen::MatrixXd::Identity(rank, rank));
 }
 
 }  // namespace indet

@@ -2,11 +2,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <memory>
 #include <vector>
+
+#include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
 
-/// The solutions of the linear equilibrium problem c u = −w [5] without the contact conditions: u =
+/// The solutions of the linear equilibrium problem A u = b (c u = −w [5]) without the contact conditions: u =
 /// particular + basis · z.
 ///
 /// Rank decision: sparse QR of cᵀ; where its estimates leave a doubt and the matrix is not too large, a dense
@@ -23,18 +26,23 @@ struct NullSpace {
   bool ambiguous = false;        ///< some singular value lies between tolerance::kRankReject and kRankAccept
   Eigen::VectorXd singular_values;    ///< where the dense decomposition was needed; empty otherwise
   std::vector<int> independent_rows;  ///< `rank` rows of c that span its row space
-  /// Where −w is not in the range of c: the part of w that no contact force can balance, a left null vector
-  /// of c. Empty if balanced.
+  /// Where b is not in the range of A: the part of −b that no contact force can balance, a left null vector
+  /// of A. Empty if balanced.
   Eigen::VectorXd unbalanced;
+  /// The decomposition of Aᵀ on which all this rests; none if A has no entries.
+  std::shared_ptr<const SparseQr> qr;
 
   double rank_gap() const { return smallest_accepted / largest_rejected; }
 };
 
-/// Precondition: wrench.size() = matrix.rows().
-NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& wrench);
+/// Precondition: b.size() = matrix.rows().
+NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& b);
 
-/// v with cᵀ v = q, for q in the row space of c (least squares otherwise): the virtual motion whose relative
-/// velocities at the contacts are q.
-Eigen::VectorXd motion_from_contacts(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& q);
+/// v with Aᵀ v = q, for q in the row space of A (least squares otherwise): the virtual motion whose relative
+/// velocities at the contacts are q. `equations`: the rows of A.
+Eigen::VectorXd motion_from_contacts(const NullSpace& null_space, int equations, const Eigen::VectorXd& q);
+
+/// P with A_r P = 1 and the smallest columns, A_r the independent rows of A: unknowns × rank.
+Eigen::MatrixXd right_inverse(const NullSpace& null_space, const Eigen::SparseMatrix<double>& matrix);
 
 }  // namespace indet

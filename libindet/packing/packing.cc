@@ -44,13 +44,13 @@ Vector3 Packing::wrench(DiskId disk) const {
   return {d.mass * gravity.x() + d.load.x(), d.mass * gravity.y() + d.load.y(), d.load.z()};
 }
 
-Eigen::VectorXd Packing::simulated_forces() const {
+SceneForces Packing::simulated_forces() const {
   Eigen::VectorXd forces(2 * contact_count());
   for (int i = 0; i < contact_count(); ++i) {
     forces[2 * i] = (*this)[ContactId(i)].R;
     forces[2 * i + 1] = (*this)[ContactId(i)].T;
   }
-  return forces;
+  return SceneForces(std::move(forces));
 }
 
 bool Packing::has_simulated_forces() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libindet/base/index.h"
+#include "libindet/packing/force.h"
 
 namespace indet {
 
@@ -107,14 +108,17 @@ struct Packing {
   /// like force_unit().
   double internal_force_unit() const;
 
+  /// Between both and the scene's own unit. Throws like force_unit().
+  ForceUnits force_units() const { return {force_unit(), internal_force_unit()}; }
+
   /// Radius of the largest disk, the unit of length (1 for a packing without disks).
   double max_radius() const;
 
   /// External wrench on disk i: m g plus its load (force x, force y, torque).
   Vector3 wrench(DiskId disk) const;
 
-  /// The simulated forces (R_1, T_1, …, R_M, T_M) [2], in the scene's own units; size 2M, NaN where unknown.
-  Eigen::VectorXd simulated_forces() const;
+  /// The simulated forces, 2M; NaN where unknown.
+  SceneForces simulated_forces() const;
 
   /// True if R and T of every contact are known.
   bool has_simulated_forces() const;

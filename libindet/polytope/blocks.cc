@@ -28,17 +28,17 @@ class DisjointSets {
 };
 
 /// Columns of the edge matrix of one block, with as many independent rows as it has.
-void add_implicit_description(const ContactMatrix& contacts, PolytopeBlock& block) {
-  Eigen::SparseMatrix<double> columns(contacts.equations(), static_cast<Eigen::Index>(block.edges.size()));
+void add_implicit_description(const EquilibriumProblem& problem, PolytopeBlock& block) {
+  Eigen::SparseMatrix<double> columns(problem.equations(), static_cast<Eigen::Index>(block.edges.size()));
   std::vector<Eigen::Triplet<double>> triplets;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(contacts.edge_matrix, block.edges[k]); it; ++it) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(problem.edge_matrix, block.edges[k]); it; ++it) {
       triplets.emplace_back(static_cast<int>(it.row()), static_cast<int>(k), it.value());
     }
   }
   columns.setFromTriplets(triplets.begin(), triplets.end());
   const std::vector<int> rows = SparseQr(columns.transpose(), tolerance::kRankReject).independent_columns();
-  std::vector<int> number(static_cast<std::size_t>(contacts.equations()), -1);
+  std::vector<int> number(static_cast<std::size_t>(problem.equations()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i)
     number[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> kept;
@@ -53,7 +53,7 @@ void add_implicit_description(const ContactMatrix& contacts, PolytopeBlock& bloc
 
 }  // namespace
 
-std::vector<PolytopeBlock> split_into_blocks(const ContactMatrix& contacts, const FeasibleSet& whole,
+std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, const FeasibleSet& whole,
                                              const Vertex& vertex) {
   const int d = whole.dim();
   const int count = whole.inequalities();
@@ -72,7 +72,7 @@ std::vector<PolytopeBlock> split_into_blocks(const ContactMatrix& contacts, cons
   }
   for (int k = 1; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    if (contacts.edges[i].contact == contacts.edges[i - 1].contact && moves[i] && moves[i - 1])
+    if (problem.edges[i].contact == problem.edges[i - 1].contact && moves[i] && moves[i - 1])
       sets.join(d + k, d + k - 1);
   }
 
@@ -104,7 +104,7 @@ std::vector<PolytopeBlock> split_into_blocks(const ContactMatrix& contacts, cons
       block.lightest.push_back(static_cast<int>(local - block.edges.begin()));
     }
     std::sort(block.lightest.begin(), block.lightest.end());
-    add_implicit_description(contacts, block);
+    add_implicit_description(problem, block);
     blocks.push_back(std::move(block));
   }
   std::sort(blocks.begin(), blocks.end(),

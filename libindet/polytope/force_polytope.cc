@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
@@ -16,12 +17,11 @@ namespace indet {
 namespace {
 
 /// Spreads a motion of the equations' rows over the disks; largest entry 1.
-void set_motion(const Packing& packing, const ContactMatrix& contacts, const Eigen::VectorXd& rows,
-                ForcePolytope& polytope) {
-  polytope.motion.setZero(packing.disk_count(), 3);
+void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
+  polytope.motion.setZero(problem.disks, 3);
   const double largest = rows.lpNorm<Eigen::Infinity>();
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    const EquilibriumRow& row = contacts.rows[static_cast<std::size_t>(i)];
+    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
     // Entries at the level of rounding say nothing about which disk moves.
     const double velocity = rows[i] / largest;
     polytope.motion(row.disk.value(), row.component) =
@@ -35,10 +35,10 @@ ContactMode close_edge(ContactMode mode, int sign) {
   return sign > 0 ? ContactMode::kSlideMinus : ContactMode::kSlidePlus;
 }
 
-FeasibleSet feasible_set(const ContactMatrix& contacts, const NullSpace& null_space) {
+FeasibleSet feasible_set(const EquilibriumProblem& problem, const NullSpace& null_space) {
   FeasibleSet set;
-  set.slope = contacts.to_edges * null_space.basis;
-  set.offset = contacts.to_edges * null_space.particular;
+  set.slope = problem.to_edges * null_space.basis;
+  set.offset = problem.to_edges * null_space.particular;
   return set;
 }
 
@@ -49,12 +49,12 @@ bool is_doubtful(const InteriorPoint& interior, bool is_zero, double scale) {
 }
 
 /// A motion of the equations' rows, on the rows of the exact problem, largest entry 1.
-std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const ContactMatrix& contacts,
+std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const EquilibriumProblem& problem,
                                   const Eigen::VectorXd& motion) {
   std::vector<double> result(static_cast<std::size_t>(exact.rows()), 0);
   const double largest = motion.lpNorm<Eigen::Infinity>();
   for (Eigen::Index i = 0; i < motion.size(); ++i) {
-    const EquilibriumRow& row = contacts.rows[static_cast<std::size_t>(i)];
+    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
     const int number = exact.row(row.disk, row.component);
     if (number >= 0) result[static_cast<std::size_t>(number)] = motion[i] / largest;
   }
@@ -72,26 +72,25 @@ struct InteriorSet {
 
 /// Poses the problem again with ever more edges closed, until F is empty (returns nothing) or
 /// full-dimensional in what is left.
-std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, const LpOptions& options,
-                                                    ForcePolytope& polytope) {
-  NullSpace null_space = polytope.null_space;
-  const exact::ContactProblem exact(packing);
+std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, ForcePolytope& polytope) {
+  const exact::ContactProblem& exact = *polytope.exact;
   std::vector<exact::Closing> closings;
   for (;;) {
-    ContactMatrix& contacts = polytope.contacts;
+    EquilibriumProblem& problem = polytope.problem;
+    const NullSpace& null_space = *polytope.null_space;
     polytope.rank_ambiguous = polytope.rank_ambiguous || null_space.ambiguous;
     polytope.doubtful = polytope.doubtful || null_space.ambiguous;
     const auto prove_emptiness = [&](const Eigen::VectorXd& motion) {
-      set_motion(packing, contacts, motion, polytope);
+      set_motion(problem, motion, polytope);
       polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, {}) ||
-                          !exact::proves_emptiness(exact, on_exact_rows(exact, contacts, motion), closings,
+                          !exact::proves_emptiness(exact, on_exact_rows(exact, problem, motion), closings,
                                                    tolerance::kReducedCost);
     };
     if (null_space.unbalanced.size() > 0) {
       prove_emptiness(null_space.unbalanced);
       return {};
     }
-    FeasibleSet set = feasible_set(contacts, null_space);
+    FeasibleSet set = feasible_set(problem, null_space);
     const InteriorPoint interior = find_interior_point(set, options);
     polytope.pivots += interior.pivots;
     ++polytope.solves;
@@ -106,19 +105,19 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
       polytope.interior = set.offset + set.slope * interior.z;
       return InteriorSet{set, interior.z};
     }
-    const Eigen::VectorXd velocities = contacts.to_edges.transpose() * interior.multipliers;
-    Eigen::VectorXd motion = motion_from_contacts(contacts.matrix, velocities);
+    const Eigen::VectorXd velocities = problem.to_edges.transpose() * interior.multipliers;
+    Eigen::VectorXd motion = motion_from_contacts(null_space, problem.equations(), velocities);
     if (!is_zero) {
-      if (motion.dot(contacts.wrench) < 0) motion = -motion;
+      if (motion.dot(problem.load()) > 0) motion = -motion;
       prove_emptiness(motion);
       return {};
     }
-    std::vector<ContactMode> modes = contacts.modes;
-    exact::Closing closing{{}, on_exact_rows(exact, contacts, motion)};
+    std::vector<ContactMode> modes = problem.modes;
+    exact::Closing closing{{}, on_exact_rows(exact, problem, motion)};
     const double significant = interior.multipliers.maxCoeff() * tolerance::kReducedCost;
     for (int k = 0; k < set.inequalities(); ++k) {
       if (interior.multipliers[k] <= significant) continue;
-      const Edge& edge = contacts.edges[static_cast<std::size_t>(k)];
+      const Edge& edge = problem.edges[static_cast<std::size_t>(k)];
       ContactMode& mode = modes[static_cast<std::size_t>(edge.contact.value())];
       mode = close_edge(mode, edge.sign);
       closing.edges.push_back(exact_number(edge));
@@ -126,17 +125,17 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
     if (closing.edges.empty())
       throw LibraryError("rounding decides whether forces balance, and no decision could be found");
     closings.push_back(std::move(closing));
-    contacts = build_contact_matrix(packing, modes);
-    null_space = compute_null_space(contacts.matrix, contacts.wrench);
+    problem = restrict_modes(problem, modes);
+    polytope.null_space = std::make_shared<NullSpace>(compute_null_space(problem.matrix, problem.load()));
   }
 }
 
-Vertex find_lightest_vertex(const ContactMatrix& contacts, const InteriorSet& interior,
+Vertex find_lightest_vertex(const EquilibriumProblem& problem, const InteriorSet& interior,
                             const LpOptions& options, ForcePolytope& polytope) {
   const FeasibleSet& set = interior.set;
   std::vector<std::pair<int, double>> normal_forces;
   for (int k = 0; k < set.inequalities(); ++k)
-    normal_forces.emplace_back(k, -contacts.edges[static_cast<std::size_t>(k)].R);
+    normal_forces.emplace_back(k, -problem.edges[static_cast<std::size_t>(k)].R);
   LpSolver solver(set, Formulation::kDual, options);
   const Objective lightness = make_objective(set, normal_forces);
   const LpAnswer answer = solver.maximise(lightness, walk_to_vertex(set, interior.z, lightness.along_z));
@@ -165,10 +164,13 @@ const char* to_string(PolytopeStatus status) {
 
 ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& options) {
   ForcePolytope polytope;
-  polytope.natural = build_contact_matrix(packing, natural_modes(packing));
-  polytope.null_space = compute_null_space(polytope.natural.matrix, polytope.natural.wrench);
-  polytope.contacts = polytope.natural;
-  const std::optional<InteriorSet> interior = reduce_to_full_dimension(packing, options, polytope);
+  polytope.natural = pose_equilibrium(packing);
+  polytope.problem = polytope.natural;
+  polytope.natural_null_space =
+      std::make_shared<NullSpace>(compute_null_space(polytope.natural.matrix, polytope.natural.load()));
+  polytope.null_space = polytope.natural_null_space;
+  polytope.exact = std::make_shared<exact::ContactProblem>(packing);
+  const std::optional<InteriorSet> interior = reduce_to_full_dimension(options, polytope);
   if (!interior) return polytope;
 
   const FeasibleSet& set = interior->set;
@@ -186,14 +188,15 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   polytope.ray = std::move(ray.x);
   polytope.bounding_multipliers = std::move(ray.multipliers);
   polytope.status = polytope.ray.size() > 0 ? PolytopeStatus::kUnbounded : PolytopeStatus::kBounded;
-  const Vertex lightest = find_lightest_vertex(polytope.contacts, *interior, options, polytope);
+  const Vertex lightest = find_lightest_vertex(polytope.problem, *interior, options, polytope);
   polytope.lightest = lightest.x;
-  polytope.blocks = split_into_blocks(polytope.contacts, set, lightest);
+  polytope.blocks = split_into_blocks(polytope.problem, set, lightest);
+  const bool is_unbounded = polytope.status == PolytopeStatus::kUnbounded;
+  for (PolytopeBlock& block : polytope.blocks) {
+    block.unbounded =
+        is_unbounded && (polytope.blocks.size() == 1 || find_recession_ray(block.set, options).x.size() > 0);
+  }
   return polytope;
-}
-
-Eigen::VectorXd contact_state(const ForcePolytope& polytope, const Eigen::VectorXd& x) {
-  return polytope.contacts.edge_forces * x;
 }
 
 }  // namespace indet

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "libindet/contact/contact_matrix.h"
+#include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/exact/contact_problem.h"
 #include "libindet/lp/feasible_set.h"
 #include "libindet/lp/lp_solver.h"
 #include "libindet/nullspace/null_space.h"
@@ -25,8 +27,9 @@ const char* to_string(PolytopeStatus status);
 /// F is the product of its blocks and of the edges that are determined.
 struct PolytopeBlock {
   FeasibleSet set;         ///< full-dimensional; the implicit description included
-  std::vector<int> edges;  ///< local index of x → index into ForcePolytope::contacts.edges; ascending
+  std::vector<int> edges;  ///< local index of x → index into ForcePolytope::problem.edges; ascending
   Basis lightest;          ///< the vertex of smallest total normal force
+  bool unbounded = false;
 };
 
 /// The polytope F = {F1 + Z z ∈ K} [19] of a packing, in dimensionless form.
@@ -38,19 +41,22 @@ struct PolytopeBlock {
 /// problem is posed again, until F has full dimension in what is left. (3) F is bounded if Σx is.
 struct ForcePolytope {
   PolytopeStatus status = PolytopeStatus::kEmpty;
-  ContactMatrix natural;        ///< the problem with every contact as the scene has it
-  NullSpace null_space;         ///< of `natural`: rank, nullity d, gap
-  ContactMatrix contacts;       ///< the problem with closed edges removed
+  EquilibriumProblem natural;  ///< the problem with every contact as the scene has it
+  EquilibriumProblem problem;  ///< the problem with closed edges removed
+  /// Of both; the same where no edge is closed.
+  std::shared_ptr<const NullSpace> natural_null_space, null_space;
+  /// The problem over the rational numbers, with every contact as the scene has it.
+  std::shared_ptr<const exact::ContactProblem> exact;
   int dim = -1;                 ///< dim F; −1 if empty
   bool rank_ambiguous = false;  ///< of either null space
   /// Some decision (rank, emptiness, dimension, boundedness) lies within rounding: results may be wrong by
   /// order one.
   bool doubtful = false;
   double interior_slack = 0;  ///< t of the interior point (mg): every x is at least this; capped at 1
-  Eigen::VectorXd interior;   ///< x of that point (all edges of `contacts`)
-  Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `contacts`)
+  Eigen::VectorXd interior;   ///< x of that point (all edges of `problem`)
+  Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `problem`)
   std::vector<PolytopeBlock> blocks;
-  Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `contacts`); empty if bounded
+  Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `problem`); empty if bounded
   /// If bounded or a point: λ ≥ 0 such that (1 + λ)·x is the same number everywhere in F, which bounds Σx.
   Eigen::VectorXd bounding_multipliers;
   /// If empty: virtual velocity (x, y, rω) of each disk under which the load does positive work while no
@@ -63,8 +69,5 @@ struct ForcePolytope {
 /// Precondition: find_defect(packing) is empty. Throws LibraryError if a linear program cannot be solved by
 /// any rung of the ladder.
 ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& options = {});
-
-/// The contact state (R_1, T_1, …) in force units of edge strengths x.
-Eigen::VectorXd contact_state(const ForcePolytope& polytope, const Eigen::VectorXd& x);
 
 }  // namespace indet

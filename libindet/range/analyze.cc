@@ -67,7 +67,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
                               const std::vector<int>& requested) {
   std::map<int, std::pair<Component, Component>> by_contact;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
-    const Edge& edge = polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])];
+    const Edge& edge = polytope.problem.edges[static_cast<std::size_t>(block.edges[k])];
     auto& [normal, tangential] = by_contact[edge.contact.value()];
     normal.on_edges.emplace_back(static_cast<int>(k), edge.R);
     if (edge.T != 0) tangential.on_edges.emplace_back(static_cast<int>(k), edge.T);
@@ -90,7 +90,6 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
 /// Switches off what is unbounded: whatever grows along some direction of the block's recession cone.
 void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, const Eigen::VectorXd& weight,
                        BlockComponents& block, StateTable& states, std::size_t number, ForceRanges& ranges) {
-  if (find_recession_ray(set, options.lp).x.size() == 0) return;
   const FeasibleSet cone = truncated_recession_cone(set);
   SearchOptions cone_options = options;
   cone_options.formulation = Formulation::kDual;
@@ -134,15 +133,14 @@ void search_block(const Packing& packing, const ForcePolytope& polytope, std::si
   const PolytopeBlock& block = polytope.blocks[number];
   Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
-    weight[static_cast<Eigen::Index>(k)] =
-        polytope.contacts.edges[static_cast<std::size_t>(block.edges[k])].R;
+    weight[static_cast<Eigen::Index>(k)] = polytope.problem.edges[static_cast<std::size_t>(block.edges[k])].R;
   }
   BlockComponents wanted = components_of(polytope, block, requested);
-  if (polytope.status == PolytopeStatus::kUnbounded)
-    exclude_unbounded(block.set, options, weight, wanted, states, number, ranges);
-  const Basis start = options.method == Method::kPivotingPaper
-                          ? first_extremal_point(packing, polytope, block, options.lp, ranges.paper)
-                          : block.lightest;
+  if (block.unbounded) exclude_unbounded(block.set, options, weight, wanted, states, number, ranges);
+  const Basis start =
+      options.method == Method::kPivotingPaper
+          ? first_extremal_point(packing.simulated_forces(), polytope, block, options.lp, ranges.paper)
+          : block.lightest;
   const SearchResult found = search_extrema(block.set, wanted.components, weight, start, options);
   ranges.paper += found.paper;
   ranges.seconds["states"] += found.state_seconds;
@@ -169,9 +167,8 @@ void search_block(const Packing& packing, const ForcePolytope& polytope, std::si
 
 /// Repeats each ray in rational numbers. Where one is not a ray exactly, forces that grow along it are
 /// limited after all, and other values may belong to vertices that are far away.
-bool proves_rays(const Packing& packing, const ForceRanges& ranges) {
+bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, const ForceRanges& ranges) {
   if (ranges.rays.rows() == 0) return true;
-  const exact::ContactProblem exact(packing);
   for (Eigen::Index q = 0; q < ranges.rays.rows(); ++q) {
     const std::span<const double> ray(&ranges.rays(q, 0), static_cast<std::size_t>(ranges.rays.cols()));
     if (!exact::proves_ray(exact, exact::edge_strengths(packing, ray), tolerance::kReducedCost)) return false;
@@ -194,7 +191,7 @@ void store_determined(const std::vector<int>& requested, StateTable& states, For
 }
 
 void describe_problem(const ForcePolytope& polytope, ForceRanges& ranges) {
-  const NullSpace& null_space = polytope.null_space;
+  const NullSpace& null_space = *polytope.natural_null_space;
   ranges.status = polytope.status;
   ranges.unknowns = polytope.natural.unknowns();
   ranges.equations = polytope.natural.equations();
@@ -268,7 +265,8 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     states.write(ranges);
     stopwatch.mark("ranges");
     ranges.seconds["ranges"] -= ranges.seconds["states"];
-    const bool proven = enclose_values(packing, polytope, optima, ranges) && proves_rays(packing, ranges);
+    const bool proven =
+        enclose_values(polytope, optima, ranges) && proves_rays(packing, *polytope.exact, ranges);
     ranges.doubtful = ranges.doubtful || !proven;
     stopwatch.mark("enclosures");
   }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "libindet/base/tolerances.h"
-#include "libindet/contact/contact_matrix.h"
+#include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 
@@ -18,10 +18,11 @@ void certify(const Packing& packing, ForceRanges& ranges) {
   Eigen::VectorXd scale(ranges.states.rows());
   ranges.residual = 0;
   for (Eigen::Index k = 0; k < ranges.states.rows(); ++k) {
-    const Eigen::VectorXd forces = ranges.states.row(k).transpose();
+    const SceneForces forces(ranges.states.row(k).transpose());
     const double balance =
         packing.disk_count() > 0 ? equilibrium_residual(packing, forces).cwiseAbs().maxCoeff() : 0;
-    scale[k] = std::max(least, forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() / unit : 0.0);
+    scale[k] =
+        std::max(least, forces.value().size() > 0 ? forces.value().lpNorm<Eigen::Infinity>() / unit : 0.0);
     residual[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale[k];
     ranges.residual = std::max(ranges.residual, balance);
   }

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "libindet/base/tolerances.h"
-#include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
 namespace {
@@ -53,11 +52,11 @@ struct StateBound {
 
 class Encloser {
  public:
-  Encloser(const Packing& packing, const ForcePolytope& polytope, ForceRanges& ranges)
-      : packing_(packing), polytope_(polytope), contacts_(polytope.contacts), ranges_(ranges) {
-    first_.assign(static_cast<std::size_t>(packing.contact_count()), -1);
-    for (int k = contacts_.unknowns() - 1; k >= 0; --k)
-      first_[static_cast<std::size_t>(contacts_.edges[static_cast<std::size_t>(k)].contact.value())] = k;
+  Encloser(const ForcePolytope& polytope, ForceRanges& ranges)
+      : polytope_(polytope), problem_(polytope.problem), ranges_(ranges) {
+    first_.assign(problem_.contacts.size(), -1);
+    for (int k = problem_.unknowns() - 1; k >= 0; --k)
+      first_[static_cast<std::size_t>(problem_.edges[static_cast<std::size_t>(k)].contact.value())] = k;
     find_right_inverse();
     bound_states();
   }
@@ -65,7 +64,7 @@ class Encloser {
   bool run(std::span<const OptimalBasis> optima) {
     sort_bases(optima);
     bound_strengths();
-    const Eigen::Index count = packing_.contact_count();
+    const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
     ranges_.sensitivity.setConstant(count, 4, ForceRanges::kNaN);
     for (Eigen::Index i = 0; i < count; ++i) {
       for (int column = 0; column < 4; ++column) {
@@ -83,8 +82,12 @@ class Encloser {
   };
 
   bool is_stick(int unknown) const {
-    const int contact = contacts_.edges[static_cast<std::size_t>(unknown)].contact.value();
-    return contacts_.modes[static_cast<std::size_t>(contact)] == ContactMode::kStick;
+    const int contact = problem_.edges[static_cast<std::size_t>(unknown)].contact.value();
+    return problem_.modes[static_cast<std::size_t>(contact)] == ContactMode::kStick;
+  }
+
+  double mu_of(const Edge& edge) const {
+    return problem_.contacts[static_cast<std::size_t>(edge.contact.value())].mu;
   }
 
   Functional functional(Eigen::Index contact, bool tangential, double sign) const {
@@ -93,7 +96,7 @@ class Encloser {
     if (first < 0) return f;
     const int edges = is_stick(first) ? 2 : 1;
     for (int k = first; k < first + edges; ++k) {
-      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+      const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
       const double coefficient = sign * (tangential ? edge.T : edge.R);
       f.on_edges.emplace_back(k, coefficient);
       if (edges == 1) f.on_unknowns.emplace_back(k, coefficient);
@@ -103,13 +106,10 @@ class Encloser {
   }
 
   void find_right_inverse() {
-    const double tolerance = tolerance::kRankReject;
-    const int unknowns = contacts_.unknowns();
-    rows_.clear();
-    if (contacts_.equations() > 0 && unknowns > 0)
-      rows_ = SparseQr(contacts_.matrix.transpose(), tolerance).independent_columns();
+    const int unknowns = problem_.unknowns();
+    rows_ = polytope_.null_space->independent_rows;
     const auto rank = static_cast<Eigen::Index>(rows_.size());
-    std::vector<int> number(static_cast<std::size_t>(contacts_.equations()), -1);
+    std::vector<int> number(static_cast<std::size_t>(problem_.equations()), -1);
     for (std::size_t k = 0; k < rows_.size(); ++k)
       number[static_cast<std::size_t>(rows_[k])] = static_cast<int>(k);
     const auto restrict_rows = [&](const Eigen::SparseMatrix<double>& matrix) {
@@ -124,26 +124,21 @@ class Encloser {
       kept.setFromTriplets(entries.begin(), entries.end());
       return kept;
     };
-    matrix_ = restrict_rows(contacts_.matrix);
-    edge_matrix_ = restrict_rows(contacts_.edge_matrix);
-    wrench_.resize(rank);
-    wrench_error_.resize(rank);
+    matrix_ = restrict_rows(problem_.matrix);
+    edge_matrix_ = restrict_rows(problem_.edge_matrix);
+    load_.resize(rank);
+    load_error_.resize(rank);
     for (Eigen::Index k = 0; k < rank; ++k) {
       const int row = rows_[static_cast<std::size_t>(k)];
-      const EquilibriumRow& equation = contacts_.rows[static_cast<std::size_t>(row)];
-      const Disk& disk = packing_[equation.disk];
-      wrench_[k] = contacts_.wrench[row];
-      const double weight =
-          equation.component < 2 ? std::abs(disk.mass * packing_.gravity[equation.component]) : 0;
-      const double scale = contacts_.force_unit * (equation.component < 2 ? 1 : disk.radius);
-      wrench_error_[k] = 6 * kU * (weight + std::abs(disk.load[equation.component])) / scale + kTiny;
+      const EquilibriumRow& equation = problem_.rows[static_cast<std::size_t>(row)];
+      load_[k] = problem_.load()[row];
+      load_error_[k] = 6 * kU * equation.load / equation.unit + kTiny;
     }
     if (rank == 0) {
       right_inverse_.resize(unknowns, 0);
       return;
     }
-    right_inverse_ = SparseQr(matrix_.transpose(), tolerance)
-                         .solve_transposed_columns(Eigen::MatrixXd::Identity(rank, rank));
+    right_inverse_ = right_inverse(*polytope_.null_space, problem_.matrix);
     const Eigen::VectorXd sums = right_inverse_.cwiseAbs().rowwise().sum();
     const double norm = kWiden * sums.maxCoeff();
     const Eigen::MatrixXd product = matrix_ * right_inverse_;
@@ -164,8 +159,8 @@ class Encloser {
   /// η of a point u.
   double shift_of(const Eigen::VectorXd& u) const {
     if (matrix_.rows() == 0) return 0;
-    const Eigen::VectorXd residual = (matrix_ * u + wrench_).cwiseAbs();
-    const Eigen::VectorXd magnitude = matrix_.cwiseAbs() * u.cwiseAbs() + wrench_.cwiseAbs();
+    const Eigen::VectorXd residual = (matrix_ * u - load_).cwiseAbs();
+    const Eigen::VectorXd magnitude = matrix_.cwiseAbs() * u.cwiseAbs() + load_.cwiseAbs();
     Eigen::VectorXd entries = Eigen::VectorXd::Zero(matrix_.rows());
     for (int j = 0; j < matrix_.outerSize(); ++j) {
       if (is_stick(j)) continue;
@@ -173,8 +168,7 @@ class Encloser {
         entries[it.row()] += std::abs(u[j]);
     }
     const double terms = row_length_ + 2;
-    const double worst =
-        (residual + kU * (terms * magnitude + 8 * entries) + wrench_error_).maxCoeff() + kTiny;
+    const double worst = (residual + kU * (terms * magnitude + 8 * entries) + load_error_).maxCoeff() + kTiny;
     const double shift = kWiden * gain_ * worst;
     return std::isnan(shift) ? kInfinity : shift;
   }
@@ -182,32 +176,18 @@ class Encloser {
   /// Visits each edge with its smallest slack once the point has been corrected.
   template <class Visit>
   void for_each_slack(const Eigen::VectorXd& u, double shift, Visit visit) const {
-    for (int k = 0; k < contacts_.unknowns(); ++k) {
-      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+    for (int k = 0; k < problem_.unknowns(); ++k) {
+      const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
       if (!is_stick(k)) {
         visit(k, u[k] - shift);
         continue;
       }
-      const double mu = packing_[edge.contact].mu;
+      const double mu = mu_of(edge);
       const int R = edge.sign > 0 ? k : k - 1;
       const double slack = mu * u[R] + edge.sign * u[R + 1];
       const double rounding = 4 * kU * (mu * std::abs(u[R]) + std::abs(u[R + 1]));
       visit(k, slack - kWiden * ((mu + 1) * shift + rounding) - kTiny);
     }
-  }
-
-  Eigen::VectorXd unknowns_of(const Eigen::VectorXd& forces) const {
-    Eigen::VectorXd u(contacts_.unknowns());
-    for (int k = 0; k < contacts_.unknowns(); ++k) {
-      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
-      const int contact = edge.contact.value();
-      if (is_stick(k)) {
-        u[k] = forces[2 * contact + (edge.sign < 0 ? 1 : 0)];
-      } else {
-        u[k] = forces[2 * contact] / edge.R;
-      }
-    }
-    return u;
   }
 
   void bound_states() {
@@ -219,12 +199,13 @@ class Encloser {
     if (length.size() > 0) row_length_ = length.maxCoeff();
     for (Eigen::Index row = 0; row < ranges_.states.rows(); ++row) {
       StateBound bound;
-      bound.u = unknowns_of(ranges_.states.row(row).transpose() / contacts_.force_unit);
+      bound.u =
+          problem_.unknowns_of(problem_.units.internal(SceneForces(ranges_.states.row(row).transpose())));
       states_.push_back(std::move(bound));
     }
-    centre_.u = unknowns_of(contact_state(polytope_, polytope_.interior));
+    centre_.u = problem_.unknowns_of(problem_.state(polytope_.interior));
     centre_.shift = shift_of(centre_.u);
-    Eigen::VectorXd margin(contacts_.unknowns());
+    Eigen::VectorXd margin(problem_.unknowns());
     inside_ = !states_.empty() && std::isfinite(centre_.shift);
     for_each_slack(centre_.u, centre_.shift, [&](int k, double slack) {
       margin[k] = slack;
@@ -241,7 +222,7 @@ class Encloser {
   }
 
   void sort_bases(std::span<const OptimalBasis> optima) {
-    basis_of_.setConstant(packing_.contact_count(), 4, -1);
+    basis_of_.setConstant(static_cast<Eigen::Index>(problem_.contacts.size()), 4, -1);
     std::map<std::pair<std::size_t, Basis>, int> numbers;
     for (const OptimalBasis& optimum : optima) {
       const auto [entry, is_new] =
@@ -268,10 +249,10 @@ class Encloser {
   /// … of the functional x_k.
   void add_edge(int k, double weight, Eigen::VectorXd& y) const {
     if (!is_stick(k)) return add_unknown(k, weight, y);
-    const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+    const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
     const int R = edge.sign > 0 ? k : k - 1;
     add_unknown(R, weight * 0.5 / edge.R, y);
-    add_unknown(R + 1, edge.sign * weight * 0.5 / (edge.R * packing_[edge.contact].mu), y);
+    add_unknown(R + 1, edge.sign * weight * 0.5 / (edge.R * mu_of(edge)), y);
   }
 
   /// y for max f, from the reduced costs at its basis.
@@ -320,8 +301,8 @@ class Encloser {
 
   /// Upper bound of −y·w.
   double load_bound(const Eigen::VectorXd& y) const {
-    const Dot dot = accurate_dot(y, wrench_);
-    return -dot.value + kWiden * (dot.error + y.cwiseAbs().dot(wrench_error_));
+    const Dot dot = accurate_dot(y, load_);
+    return dot.value + kWiden * (dot.error + y.cwiseAbs().dot(load_error_));
   }
 
   /// The largest excess of any edge.
@@ -335,12 +316,12 @@ class Encloser {
   /// X_k: Σx is limited because the polytope is, and each x_k by the certificate of the largest normal force
   /// of its contact, where that was asked for.
   void bound_strengths() {
-    strength_.setConstant(contacts_.unknowns(), kInfinity);
+    strength_.setConstant(problem_.unknowns(), kInfinity);
     total_ = kInfinity;
     if (polytope_.bounding_multipliers.size() == 0 || !std::isfinite(gain_)) return;
     Functional sum;
     Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix_.rows());
-    for (int k = 0; k < contacts_.unknowns(); ++k) {
+    for (int k = 0; k < problem_.unknowns(); ++k) {
       sum.on_edges.emplace_back(k, 1);
       add_edge(k, 1 + polytope_.bounding_multipliers[k], y);
     }
@@ -348,8 +329,8 @@ class Encloser {
     if (!(share < 0.5)) return;
     total_ = std::max(0.0, kWiden * load_bound(y) / (1 - kWiden * share));
     strength_.setConstant(total_);
-    for (int k = 0; k < contacts_.unknowns(); ++k) {
-      const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
+    for (int k = 0; k < problem_.unknowns(); ++k) {
+      const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
       const Eigen::Index i = edge.contact.value();
       if (ranges_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
       const Functional f = functional(i, false, 1);
@@ -393,18 +374,16 @@ class Encloser {
 
   /// How far the value can move when every normal turns by up to one radian times a small factor.
   double sensitivity_of(const Eigen::VectorXd& y, Eigen::Index state) const {
-    Eigen::VectorXd motion = Eigen::VectorXd::Zero(2 * packing_.disk_count());
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const EquilibriumRow& row = contacts_.rows[static_cast<std::size_t>(rows_[k])];
-      if (row.component < 2) motion[2 * row.disk.value() + row.component] = y[static_cast<Eigen::Index>(k)];
-    }
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem_.equations());
+    for (std::size_t k = 0; k < rows_.size(); ++k) motion[rows_[k]] = y[static_cast<Eigen::Index>(k)];
     double sum = 0;
-    for (int i = 0; i < packing_.contact_count(); ++i) {
-      const Contact& contact = packing_[ContactId(i)];
-      Vector2 relative = motion.segment<2>(2 * contact.a.value());
-      if (!contact.b.is_wall()) relative -= motion.segment<2>(2 * contact.b.disk_id().value());
-      const double R = ranges_.states(state, 2 * i);
-      const double T = ranges_.states(state, 2 * i + 1);
+    for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
+      const ContactEnds& contact = problem_.contacts[i];
+      Vector2 relative(0, 0);
+      if (contact.a >= 0) relative += motion.segment<2>(contact.a);
+      if (contact.b >= 0) relative -= motion.segment<2>(contact.b);
+      const double R = ranges_.states(state, 2 * static_cast<Eigen::Index>(i));
+      const double T = ranges_.states(state, 2 * static_cast<Eigen::Index>(i) + 1);
       sum += std::abs(relative.dot(T * contact.normal - R * contact.tangent()));
     }
     return sum;
@@ -434,7 +413,7 @@ class Encloser {
       }
       ranges_.sensitivity(i, column) = sensitivity_of(y, row);
     }
-    const double unit = contacts_.force_unit;
+    const double unit = problem_.units.internal_in_scene();
     const auto widened = [&](double bound, double direction) {
       return std::isinf(bound) ? bound
                                : bound * unit + direction * (4 * kU * std::abs(bound) * unit + kTiny * unit);
@@ -445,15 +424,14 @@ class Encloser {
     ranges_.upper(i, column) = std::max(stored, widened(high, 1));
   }
 
-  const Packing& packing_;
   const ForcePolytope& polytope_;
-  const ContactMatrix& contacts_;
+  const EquilibriumProblem& problem_;
   ForceRanges& ranges_;
   std::vector<int> first_;                   ///< of each contact its first unknown, −1 if it is open
   std::vector<int> rows_;                    ///< independent equations
   Eigen::SparseMatrix<double> matrix_;       ///< A on these rows
   Eigen::SparseMatrix<double> edge_matrix_;  ///< the same on edges
-  Eigen::VectorXd wrench_, wrench_error_;
+  Eigen::VectorXd load_, load_error_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> right_inverse_;  ///< P
   double gain_ = 1;  ///< ‖P‖∞ / (1 − γ), +inf if γ is not below 1
   double row_length_ = 0;
@@ -468,9 +446,9 @@ class Encloser {
 
 }  // namespace
 
-bool enclose_values(const Packing& packing, const ForcePolytope& polytope,
-                    std::span<const OptimalBasis> optima, ForceRanges& ranges) {
-  return Encloser(packing, polytope, ranges).run(optima);
+bool enclose_values(const ForcePolytope& polytope, std::span<const OptimalBasis> optima,
+                    ForceRanges& ranges) {
+  return Encloser(polytope, ranges).run(optima);
 }
 
 }  // namespace indet

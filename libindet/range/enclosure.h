@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "libindet/lp/feasible_set.h"
-#include "libindet/packing/packing.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/force_ranges.h"
 
@@ -20,12 +19,12 @@ struct OptimalBasis {
 
 /// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
 ///
-/// The exact problem is A u = −w, x(u) ≥ 0, with the doubles of the packing taken as they are; A and w in
+/// The exact problem is A u = b, x(u) ≥ 0, with the doubles of the packing taken as they are; A and b in
 /// memory differ from it by rounding, which is bounded entry by entry. With P ≈ A⁺ from a QR factorisation
 /// (rows of A independent), γ = ‖A P − 1‖∞ < 1 proves that every right-hand side ρ has a solution A Δ = ρ
 /// with ‖Δ‖∞ ≤ η = ‖P‖∞ ‖ρ‖∞ / (1 − γ). For max g·u:
 ///
-///   from above, by weak duality, for any y:   g·u ≤ −y·w + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y  (on edges)
+///   from above, by weak duality, for any y:   g·u ≤ y·b + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y  (on edges)
 ///
 ///     where y = Pᵀ (g − h̃) from the reduced costs h̃ = −λ of the basis, and X_k is any bound of x_k over F:
 ///     from the same inequality for Σx, whose y comes from the proof that F is bounded
@@ -36,7 +35,7 @@ struct OptimalBasis {
 ///     it violates nothing
 ///
 /// and vice versa for a minimum. Roundings of the evaluation are bounded a priori (Higham, Accuracy and
-/// Stability of Numerical Algorithms, ch. 3: |fl(x·y) − x·y| ≤ n u |x|·|y| / (1 − n u)); y·w by Ogita, Rump
+/// Stability of Numerical Algorithms, ch. 3: |fl(x·y) − x·y| ≤ n u |x|·|y| / (1 − n u)); y·b by Ogita, Rump
 /// and Oishi's Dot2.
 ///
 /// Preconditions on which the enclosure rests and that are proven elsewhere: the rank and the closed edges
@@ -46,7 +45,6 @@ struct OptimalBasis {
 /// Fills lower, upper and sensitivity of every objective that has a state, from `states` and `vertex`.
 /// Objectives without an entry in `optima` are determined: the same in every state. Returns false if some
 /// admissible state, or the boundedness of a polytope called bounded, could not be proven.
-bool enclose_values(const Packing& packing, const ForcePolytope& polytope,
-                    std::span<const OptimalBasis> optima, ForceRanges& ranges);
+bool enclose_values(const ForcePolytope& polytope, std::span<const OptimalBasis> optima, ForceRanges& ranges);
 
 }  // namespace indet

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libindet/base/tolerances.h"
-#include "libindet/contact/contact_matrix.h"
+#include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 namespace {

@@ -23,9 +23,9 @@ int StateTable::lightest() {
 }
 
 int StateTable::add_ray(std::size_t block, const Eigen::VectorXd& x) {
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(polytope_.contacts.unknowns());
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(polytope_.problem.unknowns());
   whole(polytope_.blocks[block].edges) = x;
-  Eigen::VectorXd ray = contact_state(polytope_, whole);
+  Eigen::VectorXd ray = polytope_.problem.state(whole).value();
   ray /= ray.lpNorm<Eigen::Infinity>();
   const auto known = std::find(rays_.begin(), rays_.end(), ray);
   if (known != rays_.end()) return static_cast<int>(known - rays_.begin());
@@ -34,11 +34,11 @@ int StateTable::add_ray(std::size_t block, const Eigen::VectorXd& x) {
 }
 
 void StateTable::write(ForceRanges& ranges) const {
-  const Eigen::Index components = polytope_.contacts.edge_forces.rows();
+  const Eigen::Index components = polytope_.problem.edge_forces.rows();
   ranges.states.resize(count(), components);
   ranges.active.resize(count(), polytope_.dim);
   for (int i = 0; i < count(); ++i) {
-    ranges.states.row(i) = states_[static_cast<std::size_t>(i)].transpose() * polytope_.contacts.force_unit;
+    ranges.states.row(i) = polytope_.problem.units.scene(states_[static_cast<std::size_t>(i)]).value();
     const auto& active = active_[static_cast<std::size_t>(i)];
     ranges.active.row(i) =
         Eigen::Map<const Eigen::Array<std::int32_t, 1, Eigen::Dynamic>>(active.data(), polytope_.dim);
@@ -49,13 +49,13 @@ void StateTable::write(ForceRanges& ranges) const {
 }
 
 void StateTable::append(const Eigen::VectorXd& x, int block, const Basis& basis) {
-  states_.push_back(contact_state(polytope_, x));
+  states_.push_back(polytope_.problem.state(x));
   std::vector<std::int32_t> active;
   for (int b = 0; b < static_cast<int>(polytope_.blocks.size()); ++b) {
     const PolytopeBlock& other = polytope_.blocks[static_cast<std::size_t>(b)];
     for (const int local : b == block ? basis : other.lightest) {
       const Edge& edge =
-          polytope_.contacts.edges[static_cast<std::size_t>(other.edges[static_cast<std::size_t>(local)])];
+          polytope_.problem.edges[static_cast<std::size_t>(other.edges[static_cast<std::size_t>(local)])];
       active.push_back(2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0));
     }
   }

@@ -35,7 +35,7 @@ class StateTable {
 
   const ForcePolytope& polytope_;
   std::map<std::pair<int, Basis>, int> numbers_;
-  std::vector<Eigen::VectorXd> states_;
+  std::vector<InternalForces> states_;
   std::vector<std::vector<std::int32_t>> active_;
   std::vector<Eigen::VectorXd> rays_;
 };

@@ -31,13 +31,15 @@ struct Quantity {
 
 class Comparison {
  public:
-  Comparison(const ConvexBody& body, const UniformSample& sample, const Eigen::MatrixXd& chain)
+  Comparison(const ConvexBody& body, const UniformSample& sample, const WeightStates& chain)
       : body_(body),
         sample_(sample),
-        chain_(chain),
+        center_(body.units.weights(sample.center).value()),
+        deviation_(body.units.weights(sample.deviation).value()),
+        chain_(chain.value()),
         uniform_assessor_(sample.chains, sample.length),
         half_assessor_(sample.chains / 2, sample.length),
-        chain_assessor_(1, static_cast<int>(chain.cols())) {}
+        chain_assessor_(1, static_cast<int>(chain_.cols())) {}
 
   SamplingBias run(const ForceRanges* ranges) {
     const Eigen::Index contacts = body_.frame.rows() / 2;
@@ -46,7 +48,8 @@ class Comparison {
     bias_.tests.resize(static_cast<std::size_t>(contacts));
     bias_.control.resize(static_cast<std::size_t>(contacts));
     for (Eigen::Index k = 0; k < body_.frame.rows(); ++k) {
-      const Quantity uniform = of_uniform(component_of(body_, sample_, static_cast<int>(k)));
+      const Quantity uniform =
+          of_uniform(body_.units.weights(component_of(body_, sample_, static_cast<int>(k))).value());
       const Quantity chain = of_chain(chain_.row(k).transpose());
       noise_ += uniform.variance_of_mean() + chain.variance_of_mean();
       if (k % 2 == 0) compare(k / 2, uniform, chain, ranges);
@@ -67,15 +70,19 @@ class Comparison {
     return {std::move(values), effective};
   }
 
+  /// False where R is determined.
+  bool varies(Eigen::Index contact) const {
+    return sample_.deviation.value()[2 * contact] > tolerance::kSliding;
+  }
+
   void compare(Eigen::Index contact, const Quantity& uniform, const Quantity& chain,
                const ForceRanges* ranges) {
     const auto i = static_cast<std::size_t>(contact);
-    const double deviation = sample_.deviation[2 * contact];
     bias_.mean[contact] = chain.values.mean();
     bias_.deviation[contact] = std::sqrt(variance_of(chain.values));
     bin(contact, uniform.values, ranges, bias_.uniform);
     bin(contact, chain.values, ranges, bias_.chain);
-    if (!(deviation > tolerance::kSliding)) return;
+    if (!varies(contact)) return;
     bias_.effective[contact] = chain.effective;
     if (chain.effective >= SamplingBias::kFewest)
       bias_.tests[i] = compare_samples(chain.sample(), uniform.sample());
@@ -90,14 +97,14 @@ class Comparison {
 
   void bin(Eigen::Index contact, const Eigen::VectorXd& values, const ForceRanges* ranges,
            SampledForces& forces) const {
-    const double mean = sample_.center[2 * contact];
-    const double deviation = sample_.deviation[2 * contact];
+    const double mean = center_[2 * contact];
+    const double deviation = deviation_[2 * contact];
     const double range = ranges == nullptr ? kNaN : ranges->delta_R[contact];
     const double low = ranges == nullptr ? kNaN : ranges->value(contact, kMinR) / ranges->force_unit;
     for (const double R : values) {
       forces.force.add(std::max(R, 0.0));  // rounding around 0
-      if (deviation > tolerance::kSliding) forces.standard.add((R - mean) / deviation);
-      if (range > tolerance::kSliding && std::isfinite(range))
+      if (varies(contact)) forces.standard.add((R - mean) / deviation);
+      if (range > tolerance::kSliding * body_.units.internal_in_weights() && std::isfinite(range))
         forces.place.add(std::clamp((R - low) / range, 0.0, 1 - 1e-12));
     }
   }
@@ -107,12 +114,14 @@ class Comparison {
     const Quantity squares = of_chain((chain_.colwise() - center).colwise().squaredNorm().transpose());
     bias_.r = std::sqrt(squares.values.mean());
     bias_.r_error = bias_.r > 0 ? std::sqrt(squares.variance_of_mean()) / (2 * bias_.r) : 0;
-    bias_.ratio = bias_.r / sample_.r;
-    bias_.ratio_error = std::hypot(bias_.r_error, bias_.ratio * sample_.r_error) / sample_.r;
+    const double r = body_.units.weights(sample_.r).value();
+    const double r_error = body_.units.weights(sample_.r_error).value();
+    bias_.ratio = bias_.r / r;
+    bias_.ratio_error = std::hypot(bias_.r_error, bias_.ratio * r_error) / r;
   }
 
   void compare_centres() {
-    const Eigen::VectorXd difference = chain_.rowwise().mean() - sample_.center;
+    const Eigen::VectorXd difference = chain_.rowwise().mean() - center_;
     const double distance = difference.norm();
     bias_.center_noise = std::sqrt(noise_);
     bias_.center_shift = std::sqrt(std::max(0.0, distance * distance - noise_));
@@ -120,7 +129,7 @@ class Comparison {
     if (!(distance > 0)) return;
     const Eigen::VectorXd direction = difference / distance;
     const Eigen::VectorXd along = body_.frame.transpose() * direction;
-    const Quantity uniform = of_uniform(sample_.z.transpose() * along);
+    const Quantity uniform = of_uniform(body_.units.internal_in_weights() * (sample_.z.transpose() * along));
     const Quantity chain = of_chain(chain_.transpose() * direction);
     bias_.center_shift_error = std::sqrt(uniform.variance_of_mean() + chain.variance_of_mean());
   }
@@ -141,7 +150,8 @@ class Comparison {
 
   const ConvexBody& body_;
   const UniformSample& sample_;
-  const Eigen::MatrixXd& chain_;
+  const Eigen::VectorXd center_, deviation_;  ///< of the uniform sample, mg
+  const Eigen::MatrixXd& chain_;              ///< mg
   ChainAssessor uniform_assessor_, half_assessor_, chain_assessor_;
   double noise_ = 0;
   SamplingBias bias_;
@@ -162,7 +172,7 @@ void BinnedValues::add(double value) {
 }
 
 SamplingBias compare_with_uniform(const ConvexBody& body, const UniformSample& sample,
-                                  const Eigen::MatrixXd& chain, const ForceRanges* ranges) {
+                                  const WeightStates& chain, const ForceRanges* ranges) {
   return Comparison(body, sample, chain).run(ranges);
 }
 

@@ -23,13 +23,13 @@ struct BinnedValues {
 
 /// Normal forces of all contacts in all states of a sample.
 struct SampledForces {
-  BinnedValues force{.width = 1};        ///< R in force units
+  BinnedValues force{.width = 1};        ///< R in mg
   BinnedValues standard{.width = 0.25};  ///< (R − ⟨R⟩)/σ_R of the contact, both of the uniform distribution
   BinnedValues place{.width = 0.05};  ///< R* [39]; empty without ranges
 };
 
 /// How another sample of the contact states of a packing, a Markov chain, differs from the uniform
-/// distribution. Forces and distances are in force units. The number of states is replaced by effective ones
+/// distribution. Forces and distances are in mg. The number of states is replaced by effective ones
 /// in every error. Tests are of the normal forces, one a contact; NaN where R is determined, or where the
 /// chain is worth fewer than `kFewest` states of that contact.
 struct SamplingBias {
@@ -57,10 +57,10 @@ struct SamplingBias {
   int control_means = 0, control_distributions = 0;
 };
 
-/// `chain`: 2M × S, one state after the other in force units. `ranges`: of the same packing, or null.
+/// `chain`: 2M × S, one state after the other. `ranges`: of the same packing, or null.
 /// Precondition: S ≥ 16; the sample has at least four chains, of which it uses an even number for the
 /// control.
 SamplingBias compare_with_uniform(const ConvexBody& body, const UniformSample& sample,
-                                  const Eigen::MatrixXd& chain, const ForceRanges* ranges);
+                                  const WeightStates& chain, const ForceRanges* ranges);
 
 }  // namespace indet

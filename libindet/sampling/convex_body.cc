@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "libindet/base/error.h"
 #include "libindet/polytope/interior.h"
@@ -11,6 +12,12 @@ namespace indet {
 
 double ConvexBody::slack(const Eigen::Ref<const Eigen::VectorXd>& z) const {
   return (set.offset + set.slope * z).minCoeff();
+}
+
+InternalStates ConvexBody::states(const Eigen::Ref<const Eigen::MatrixXd>& z) const {
+  Eigen::MatrixXd result = frame * z;
+  result.colwise() += origin;
+  return InternalStates(std::move(result));
 }
 
 ConvexBody make_body(const FeasibleSet& set) {
@@ -27,7 +34,7 @@ ConvexBody make_body(const FeasibleSet& set) {
 ConvexBody make_body(const ForcePolytope& polytope) {
   Eigen::Index rows = 0;
   for (const PolytopeBlock& block : polytope.blocks) rows += block.set.inequalities();
-  const Eigen::SparseMatrix<double>& to_forces = polytope.contacts.edge_forces;
+  const Eigen::SparseMatrix<double>& to_forces = polytope.problem.edge_forces;
   ConvexBody body;
   body.set.slope = Eigen::MatrixXd::Zero(rows, polytope.dim);
   body.set.offset.resize(rows);
@@ -57,6 +64,7 @@ ConvexBody make_body(const ForcePolytope& polytope) {
     place.first_column += place.columns;
   }
   body.origin = to_forces * x;
+  body.units = polytope.problem.units;
   return body;
 }
 

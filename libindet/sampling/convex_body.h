@@ -18,7 +18,7 @@ struct BodyBlock {
 /// A bounded polytope with an interior, {z ∈ R^n : offset + slope z ≥ 0}, in coordinates in which lengths and
 /// volumes are those of the space of contact states:
 ///
-///   F = origin + frame z,  frameᵀ frame = 1        (frame: 2M × n; forces in force units)
+///   F = origin + frame z,  frameᵀ frame = 1        (frame: 2M × n; forces, and so z, in the internal unit)
 ///
 /// so that the uniform distribution of z is the flat measure on the affine hull of the polytope F [19], and
 /// n = dim F. Blocks of F are blocks here; forces that are determined are constant.
@@ -27,19 +27,22 @@ struct ConvexBody {
   std::vector<BodyBlock> blocks;
   Eigen::VectorXd origin;  ///< 2M
   Eigen::MatrixXd frame;   ///< 2M × n
+  ForceUnits units;        ///< from the internal unit to others
 
+  /// The contact states at z, n × K: 2M × K.
+  InternalStates states(const Eigen::Ref<const Eigen::MatrixXd>& z) const;
   int dim() const { return set.dim(); }
   /// How far z is inside: min (offset + slope z), recomputed from z.
   double slack(const Eigen::Ref<const Eigen::VectorXd>& z) const;
 };
 
-/// The body of a set given directly: orthonormal coordinates, one block, F = z.
+/// The body of a set given directly: orthonormal coordinates, one block, F = z, all units of force the same.
 ConvexBody make_body(const FeasibleSet& set);
 
 /// The body of the contact states of a packing. Precondition: status is kBounded.
 ConvexBody make_body(const ForcePolytope& polytope);
 
-/// The largest ball in the body. Throws LibraryError if its linear program fails.
+/// The largest ball in the body, in the units of z. Throws LibraryError if its linear program fails.
 struct InscribedBall {
   Eigen::VectorXd center;
   double radius = -1;

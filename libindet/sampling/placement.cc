@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The numbers that are compared. `state` in force units.
+/// The numbers that are compared, in the internal unit.
 struct Values {
   double distance = 0, norm = 0, normal_force = 0, mobilisation = 0, R_star = kNaN;
 };
@@ -29,25 +30,26 @@ double mean_mobilisation(const Packing& packing, const Eigen::VectorXd& state) {
   return count > 0 ? sum / count : kNaN;
 }
 
-double mean_R_star(const ForceRanges& ranges, const Eigen::VectorXd& state) {
+double mean_R_star(const ForceRanges& ranges, const ForceUnits& units, const Eigen::VectorXd& state) {
+  const double unit = units.internal_in_weights();
   double sum = 0;
   int count = 0;
   for (Eigen::Index k = 0; k < ranges.delta_R.size(); ++k) {
-    if (!(ranges.delta_R[k] > tolerance::kSliding) || std::isinf(ranges.delta_R[k])) continue;
-    sum += (state[2 * k] - ranges.value(k, kMinR) / ranges.force_unit) / ranges.delta_R[k];
+    if (!(ranges.delta_R[k] > tolerance::kSliding * unit) || std::isinf(ranges.delta_R[k])) continue;
+    sum += (unit * state[2 * k] - ranges.value(k, kMinR) / ranges.force_unit) / ranges.delta_R[k];
     ++count;
   }
   return count > 0 ? sum / count : kNaN;
 }
 
-Values values_of(const Packing& packing, const Eigen::VectorXd& center, const Eigen::VectorXd& state,
-                 const ForceRanges* ranges) {
+Values values_of(const Packing& packing, const ForceUnits& units, const Eigen::VectorXd& center,
+                 const Eigen::VectorXd& state, const ForceRanges* ranges) {
   Values v;
   v.distance = (state - center).norm();
   v.norm = state.norm();
   for (Eigen::Index k = 0; k < state.size(); k += 2) v.normal_force += state[k];
   v.mobilisation = mean_mobilisation(packing, state);
-  if (ranges != nullptr) v.R_star = mean_R_star(*ranges, state);
+  if (ranges != nullptr) v.R_star = mean_R_star(*ranges, units, state);
   return v;
 }
 
@@ -61,10 +63,11 @@ double percentile(const std::vector<Values>& samples, double Values::*member, do
 }  // namespace
 
 Placement place_state(const Packing& packing, const ConvexBody& body, const UniformSample& sample,
-                      const Eigen::VectorXd& state, const ForceRanges* ranges) {
-  const double unit = packing.force_unit();
-  const Eigen::VectorXd F = state / unit;
-  const Values own = values_of(packing, sample.center, F, ranges);
+                      const SceneForces& state, const ForceRanges* ranges) {
+  const ForceUnits& units = body.units;
+  const Eigen::VectorXd F = units.internal(state).value();
+  const Eigen::VectorXd& center = sample.center.value();
+  const Values own = values_of(packing, units, center, F, ranges);
   Placement place;
   place.most_sliding = 0;
   place.sliding = count_coulomb(packing, state, tolerance::kSliding).sliding;
@@ -72,14 +75,14 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
   std::vector<Values> samples;
   samples.reserve(static_cast<std::size_t>(sample.count()));
   for (Eigen::Index i = 0; i < sample.z.cols(); ++i) {
-    const Eigen::VectorXd drawn = body.origin + body.frame * sample.z.col(i);
-    samples.push_back(values_of(packing, sample.center, drawn, ranges));
-    const int sliding = count_coulomb(packing, drawn * unit, tolerance::kSliding).sliding;
+    const InternalForces drawn(body.states(sample.z.col(i)).value());
+    samples.push_back(values_of(packing, units, center, drawn.value(), ranges));
+    const int sliding = count_coulomb(packing, units.scene(drawn), tolerance::kSliding).sliding;
     place.most_sliding = std::max(place.most_sliding, sliding);
     below += sliding < place.sliding ? 1 : sliding == place.sliding ? 0.5 : 0;
   }
   place.sliding_percentile = 100 * below / static_cast<double>(samples.size());
-  place.distance = own.distance;
+  place.distance = units.weights(InternalForce(own.distance)).value();
   place.distance_percentile = percentile(samples, &Values::distance, own.distance);
   place.norm_percentile = percentile(samples, &Values::norm, own.norm);
   place.normal_force_percentile = percentile(samples, &Values::normal_force, own.normal_force);
@@ -91,8 +94,8 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
   int inside = 0;
   int counted = 0;
   for (int k = 0; k < body.frame.rows(); k += 2) {
-    if (!(sample.deviation[k] > tolerance::kSliding)) continue;
-    Eigen::VectorXd values = component_of(body, sample, k);
+    if (!(sample.deviation.value()[k] > tolerance::kSliding)) continue;
+    Eigen::VectorXd values = component_of(body, sample, k).value();
     std::sort(values.begin(), values.end());
     const std::span<const double> sorted(values.data(), static_cast<std::size_t>(values.size()));
     const auto smaller = std::lower_bound(sorted.begin(), sorted.end(), F[k]) - sorted.begin();

@@ -16,7 +16,7 @@ namespace indet {
 /// A percentile is the percentage of samples whose value is smaller; where many samples have the same value
 /// as the state (numbers of sliding contacts), half of those count too. NaN where a force is not known.
 struct Placement {
-  double distance = -1;                 ///< ‖F − F°‖ of the state, force units
+  double distance = -1;                 ///< ‖F − F°‖ of the state, mg
   double distance_percentile = -1;      ///< of that distance among those of the samples
   double norm_percentile = -1;          ///< of ‖F‖
   double normal_force_percentile = -1;  ///< of ΣR
@@ -30,8 +30,8 @@ struct Placement {
   Eigen::VectorXd percentile_R;         ///< M: of each R; NaN where it is determined
 };
 
-/// `state`: (R_1, T_1, …) in the packing's units. `ranges`: may be null.
+/// `ranges`: may be null.
 Placement place_state(const Packing& packing, const ConvexBody& body, const UniformSample& sample,
-                      const Eigen::VectorXd& state, const ForceRanges* ranges);
+                      const SceneForces& state, const ForceRanges* ranges);
 
 }  // namespace indet

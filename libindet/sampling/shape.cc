@@ -89,7 +89,9 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
                             const ShapeOptions& options) {
   const int n = body.dim();
   PolytopeShape shape;
-  shape.inscribed_radius = sample.ball.radius;
+  const double unit =
+      body.units.internal_in_weights();  // z and all lengths are in the internal unit until the end
+  shape.inscribed_radius = unit * sample.ball.radius;
   const Eigen::MatrixXd centred = sample.z.colwise() - sample.z.rowwise().mean();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(centred * centred.transpose());
   Support support(body, sample.ball.center, options.lp);
@@ -123,17 +125,17 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
   // The mean over the widths that were found would be one over directions that are not equally likely.
   const bool all = std::none_of(widths.begin(), widths.end(), [](double width) { return std::isnan(width); });
   const Estimate mean = all ? mean_of(widths) : Estimate{};
-  shape.mean_width = mean.value;
-  shape.mean_width_error = mean.error;
+  shape.mean_width = unit * mean.value;
+  shape.mean_width_error = unit * mean.error;
   Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = points[i];
-  shape.diameter_lower = large_distance(columns);
-  shape.diameter_upper = std::sqrt(squares);
+  shape.diameter_lower = unit * large_distance(columns);
+  shape.diameter_upper = unit * std::sqrt(squares);
   shape.diameter_by_ranges = kNaN;
   if (ranges != nullptr) {
     if (ranges->states.rows() > 0) {
-      const Eigen::MatrixXd states = ranges->states.transpose() / ranges->force_unit;
-      shape.diameter_lower = std::max(shape.diameter_lower, large_distance(states));
+      const WeightStates states = body.units.weights(SceneStates(ranges->states.transpose()));
+      shape.diameter_lower = std::max(shape.diameter_lower, large_distance(states.value()));
     }
     shape.diameter_by_ranges = range_diagonal(*ranges);
     shape.diameter_upper = std::fmin(shape.diameter_upper, shape.diameter_by_ranges);

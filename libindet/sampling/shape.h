@@ -11,7 +11,7 @@
 
 namespace indet {
 
-/// How large the polytope F is, in force units.
+/// How large the polytope F is, in mg.
 ///
 /// With the support function h(u) = max_F u·F, the width of F along a unit vector u of its affine hull is
 /// w(u) = h(u) + h(−u): two linear programs. Along the n principal axes of a uniform sample the widths give a

@@ -146,7 +146,7 @@ class Sampler {
 
   Convergence assess(const ChainAssessor& assessor, int k) const {
     if (k < body_.frame.rows() && body_.frame.row(k).norm() < kConstantRow) return {};
-    const Eigen::VectorXd values = component_of(body_, result_, k);
+    const Eigen::VectorXd values = component_of(body_, result_, k).value();
     return assessor.assess({values.data(), static_cast<std::size_t>(values.size())});
   }
 
@@ -198,20 +198,21 @@ class Sampler {
     const Eigen::VectorXd mean = result_.z.rowwise().mean();
     const Eigen::MatrixXd centred = result_.z.colwise() - mean;
     result_.covariance = centred * centred.transpose() / n;
-    result_.center = body_.origin + body_.frame * mean;
-    result_.deviation =
-        (body_.frame * result_.covariance).cwiseProduct(body_.frame).rowwise().sum().cwiseMax(0).cwiseSqrt();
+    result_.center = InternalForces(body_.origin + body_.frame * mean);
+    result_.deviation = InternalForces(
+        (body_.frame * result_.covariance).cwiseProduct(body_.frame).rowwise().sum().cwiseMax(0).cwiseSqrt());
     const Eigen::VectorXd squares = centred.colwise().squaredNorm();
     const Eigen::VectorXd distances = squares.cwiseSqrt();
-    result_.r = std::sqrt(squares.mean());
+    const double r = std::sqrt(squares.mean());
+    result_.r = InternalForce(r);
     const double variance = (squares.array() - squares.mean()).square().mean();
     const double effective =
         assessor.effective_size({squares.data(), static_cast<std::size_t>(squares.size())});
-    result_.r_error = std::sqrt(variance / effective) / (2 * result_.r);
-    result_.spread = std::sqrt((distances.array() - distances.mean()).square().mean());
-    const Eigen::VectorXd norms = component_of(body_, result_, static_cast<int>(body_.frame.rows()));
-    result_.mean_norm = norms.mean();
-    result_.norm_deviation = std::sqrt((norms.array() - norms.mean()).square().mean());
+    result_.r_error = InternalForce(std::sqrt(variance / effective) / (2 * r));
+    result_.spread = InternalForce(std::sqrt((distances.array() - distances.mean()).square().mean()));
+    const Eigen::VectorXd norms = component_of(body_, result_, static_cast<int>(body_.frame.rows())).value();
+    result_.mean_norm = InternalForce(norms.mean());
+    result_.norm_deviation = InternalForce(std::sqrt((norms.array() - norms.mean()).square().mean()));
   }
 
   static constexpr int kRound = 64;    ///< samples of each chain between two reports
@@ -243,15 +244,16 @@ UniformSample sample_uniformly(const ConvexBody& body, const UniformOptions& opt
   return Sampler(body, options).run();
 }
 
-Eigen::VectorXd component_of(const ConvexBody& body, const UniformSample& sample, int k) {
+InternalForces component_of(const ConvexBody& body, const UniformSample& sample, int k) {
   if (k < body.frame.rows()) {
     const Eigen::VectorXd row = body.frame.row(k).transpose();
-    return (sample.z.transpose() * row).array() + body.origin[k];
+    return InternalForces((sample.z.transpose() * row).array() + body.origin[k]);
   }
   // ‖F‖² = ‖origin⊥‖² + ‖frameᵀ origin + z‖².
   const Eigen::VectorXd along = body.frame.transpose() * body.origin;
   const double across = (body.origin - body.frame * along).squaredNorm();
-  return ((sample.z.colwise() + along).colwise().squaredNorm().array() + across).sqrt().transpose();
+  return InternalForces(
+      ((sample.z.colwise() + along).colwise().squaredNorm().array() + across).sqrt().transpose());
 }
 
 }  // namespace indet

@@ -29,7 +29,7 @@ struct UniformOptions {
   std::optional<std::string> defect() const;
 };
 
-/// What was drawn. Distances and norms are in force units.
+/// What was drawn.
 struct UniformSample {
   bool converged = false;      ///< false: stopped at the limit of sweeps
   int chains = 0, length = 0;  ///< samples: `chains` chains of `length` each
@@ -47,15 +47,15 @@ struct UniformSample {
   double bulk = 0, tail = 0;            ///< the smallest
   int slowest = -1;                     ///< component of the smallest effective size; its number 2M: ‖F‖
 
-  Eigen::VectorXd center;      ///< F°, the mean
-  Eigen::VectorXd deviation;   ///< standard deviation of each component
+  InternalForces center;       ///< F°, the mean
+  InternalForces deviation;    ///< standard deviation of each component
   Eigen::MatrixXd covariance;  ///< n × n, of z; that of F is frame · covariance · frameᵀ
-  double r = -1;               ///< (mean ‖F − F°‖²)^½ [38]
-  double r_error = -1;         ///< its standard error, from the effective size of ‖F − F°‖²
-  double spread = -1;          ///< standard deviation of ‖F − F°‖
-  double mean_norm = -1, norm_deviation = -1;
-  double seconds = 0;       ///< elapsed, warm-up included
-  double core_seconds = 0;  ///< processor time of the whole process meanwhile
+  InternalForce r{-1};         ///< (mean ‖F − F°‖²)^½ [38]
+  InternalForce r_error{-1};   ///< its standard error, from the effective size of ‖F − F°‖²
+  InternalForce spread{-1};    ///< standard deviation of ‖F − F°‖
+  InternalForce mean_norm{-1}, norm_deviation{-1};  ///< of ‖F‖
+  double seconds = 0;                               ///< elapsed, warm-up included
+  double core_seconds = 0;                          ///< processor time of the whole process meanwhile
 
   int count() const { return chains * length; }
 };
@@ -65,6 +65,6 @@ struct UniformSample {
 UniformSample sample_uniformly(const ConvexBody& body, const UniformOptions& options);
 
 /// Component k of F over the samples, chain after chain; k = 2M: ‖F‖.
-Eigen::VectorXd component_of(const ConvexBody& body, const UniformSample& sample, int k);
+InternalForces component_of(const ConvexBody& body, const UniformSample& sample, int k);
 
 }  // namespace indet

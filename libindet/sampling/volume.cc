@@ -123,8 +123,9 @@ VolumeEstimate estimate_volume(const ConvexBody& body, const UniformSample& samp
     if (options.progress && !options.progress({"volume", estimate.phases, 0, {}})) throw Interrupted();
   }
   const double n = body.dim();
-  estimate.log_volume = rounding.log_determinant() + n / 2 * std::log(2 * std::numbers::pi / precision) +
-                        std::log(inside) - log_ratio(chain_weights, -1);
+  estimate.log_volume = n * std::log(body.units.internal_in_weights()) + rounding.log_determinant() +
+                        n / 2 * std::log(2 * std::numbers::pi / precision) + std::log(inside) -
+                        log_ratio(chain_weights, -1);
   std::vector<double> without(walks.size());
   double mean = 0;
   for (int c = 0; c < options.chains; ++c) {

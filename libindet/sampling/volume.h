@@ -27,7 +27,7 @@ struct VolumeOptions {
   ProgressCallback progress;
 };
 
-/// log is natural; the volume is in n-th powers of the force unit.
+/// log is natural; the volume is in n-th powers of mg.
 struct VolumeEstimate {
   double log_volume = std::numeric_limits<double>::quiet_NaN();
   double error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of log_volume

@@ -35,7 +35,7 @@ constexpr const char* kUnboundedLine = "stroke:rgb(80%,0%,20%)";
 TEST(PackingPicture, ForcesHaveTheirElements) {
   const test::TemporaryFolder folder;
   const Packing packing = test::sample_packing();  // T of contact 4 is unknown
-  Eigen::VectorXd forces = packing.simulated_forces();
+  Eigen::VectorXd forces = packing.simulated_forces().value();
   forces[1] = 3;
   draw_forces(folder / "p.svg", packing, forces, "caption");
   const std::string svg = folder.read("p.svg");
@@ -87,14 +87,14 @@ TEST(PackingPicture, DeltaRHasItsElements) {
 TEST(PackingPicture, TheExtensionChoosesTheFormat) {
   const test::TemporaryFolder folder;
   const Packing packing = test::sample_packing();
-  draw_forces(folder / "p.pdf", packing, packing.simulated_forces(), "c");
-  draw_forces(folder / "p.png", packing, packing.simulated_forces(), "c");
+  draw_forces(folder / "p.pdf", packing, packing.simulated_forces().value(), "c");
+  draw_forces(folder / "p.png", packing, packing.simulated_forces().value(), "c");
   EXPECT_THAT(folder.read("p.pdf"), StartsWith("%PDF-"));
   EXPECT_THAT(folder.read("p.png"), StartsWith("\x89PNG"));
-  EXPECT_THAT([&] { draw_forces(folder / "p.gif", packing, packing.simulated_forces(), "c"); },
+  EXPECT_THAT([&] { draw_forces(folder / "p.gif", packing, packing.simulated_forces().value(), "c"); },
               ThrowsMessage<InputError>(HasSubstr("written as .svg, .pdf or .png")));
   EXPECT_FALSE(std::filesystem::exists(folder / "p.gif"));
-  EXPECT_THAT([&] { draw_forces(folder / "no" / "p.svg", packing, packing.simulated_forces(), "c"); },
+  EXPECT_THAT([&] { draw_forces(folder / "no" / "p.svg", packing, packing.simulated_forces().value(), "c"); },
               ThrowsMessage<InputError>(HasSubstr("cannot be written")));
 }
 

@@ -52,12 +52,12 @@ void expect_same(const Packing& left, const Packing& right) {
 TEST(CsvWriter, ASceneReadsBackToTheSamePacking) {
   const test::TemporaryFolder folder;
   Packing packing = test::sample_packing();
-  write_csv_scene(folder / "scene", packing, packing.simulated_forces());
+  write_csv_scene(folder / "scene", packing, packing.simulated_forces().value());
   expect_same(read_csv_scene(folder / "scene").packing, packing);
   packing.named_force_unit = 0.1;
   packing.gravity = {1e-3, -9.81};
   packing.walls[0].name = "a, b # c";
-  write_csv_scene(folder / "scene", packing, packing.simulated_forces());
+  write_csv_scene(folder / "scene", packing, packing.simulated_forces().value());
   expect_same(read_csv_scene(folder / "scene").packing, packing);
 }
 
@@ -68,7 +68,7 @@ TEST(CsvWriter, ARealPackingReadsBackToTheSamePacking) {
   options.contacts = std::string(INDET_TEST_DATA) + "/lammps/contacts.dump";
   options.friction = 0.3;
   const Packing packing = read_lammps(options).packing;
-  write_csv_scene(folder.path(), packing, packing.simulated_forces());
+  write_csv_scene(folder.path(), packing, packing.simulated_forces().value());
   expect_same(read_csv_scene(folder.path()).packing, packing);
 }
 
@@ -89,7 +89,7 @@ TEST(CsvWriter, TheTableHasARowAContact) {
   EXPECT_TRUE(table.is_empty(3, "T_min"));
   EXPECT_EQ(table.text(3, "T_min_outcome"), "optimal");
   EXPECT_EQ(table.number(4, "delta_T"), 10);
-  write_contact_table(folder / "p.csv", packing, packing.simulated_forces(), nullptr);
+  write_contact_table(folder / "p.csv", packing, packing.simulated_forces().value(), nullptr);
   EXPECT_FALSE(read_csv(folder / "p.csv").has("R_max"));
 }
 
@@ -97,8 +97,9 @@ TEST(CsvWriter, AFolderThatCannotBeMadeIsNamed) {
   const test::TemporaryFolder folder;
   folder.write("file", "");
   const Packing packing = test::sample_packing();
-  EXPECT_THAT([&] { write_csv_scene(folder / "file" / "scene", packing, packing.simulated_forces()); },
-              ThrowsMessage<InputError>(HasSubstr("the folder cannot be made")));
+  EXPECT_THAT(
+      [&] { write_csv_scene(folder / "file" / "scene", packing, packing.simulated_forces().value()); },
+      ThrowsMessage<InputError>(HasSubstr("the folder cannot be made")));
 }
 
 }  // namespace

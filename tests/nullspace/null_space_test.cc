@@ -7,7 +7,7 @@
 
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/contact/contact_matrix.h"
+#include "libindet/equilibrium/equilibrium_problem.h"
 #include "libindet/nullspace/sparse_qr.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
@@ -24,9 +24,9 @@ Eigen::MatrixXd random_matrix(int rows, int columns, double filled, Random& rand
 }
 
 /// Against the singular value decomposition: projectors and residuals, never basis vectors.
-void expect_as_dense(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& wrench) {
-  const NullSpace found = compute_null_space(matrix.sparseView(), wrench);
-  const oracle::DenseSolution exact = oracle::solve_dense(matrix, -wrench);
+void expect_as_dense(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& b) {
+  const NullSpace found = compute_null_space(matrix.sparseView(), b);
+  const oracle::DenseSolution exact = oracle::solve_dense(matrix, b);
   ASSERT_EQ(found.rank, exact.rank);
   ASSERT_EQ(found.nullity, matrix.cols() - exact.rank);
   ASSERT_EQ(found.basis.cols(), found.nullity);
@@ -44,14 +44,18 @@ void expect_as_dense(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& wrenc
   const bool balanced = exact.residual < 1e-9;
   EXPECT_EQ(found.unbalanced.size() == 0, balanced);
   if (balanced) {
-    EXPECT_LE((matrix * found.particular + wrench).lpNorm<Eigen::Infinity>(),
+    EXPECT_LE((matrix * found.particular - b).lpNorm<Eigen::Infinity>(),
               1e-11 * std::max(1.0, found.particular.norm()));
     EXPECT_TRUE(test::same_entries(exact.particular, found.particular, 1e-8));
     EXPECT_LE((Z.transpose() * found.particular).norm(), 1e-12 * std::max(1.0, found.particular.norm()));
   } else {
     EXPECT_LE((matrix.transpose() * found.unbalanced).norm(), 1e-12 * scale * found.unbalanced.norm());
-    EXPECT_GT(found.unbalanced.dot(wrench), 1e-10);
+    EXPECT_LT(found.unbalanced.dot(b), -1e-10);
   }
+  // P solves the independent equations, with the smallest columns.
+  const Eigen::MatrixXd P = right_inverse(found, matrix.sparseView());
+  EXPECT_TRUE(test::same_entries(kept * P, Eigen::MatrixXd::Identity(found.rank, found.rank), 1e-9));
+  EXPECT_LE((Z.transpose() * P).norm(), 1e-11 * std::max(1.0, P.norm()));
   // The estimates bound the singular values.
   if (found.rank > 0 && matrix.size() > 0) {
     const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
@@ -105,7 +109,7 @@ TEST(NullSpace, OfNothing) {
   EXPECT_EQ(no_rows.rank, 0);
   const NullSpace no_columns = compute_null_space(Eigen::SparseMatrix<double>(2, 0), Eigen::Vector2d(0, 1));
   EXPECT_EQ(no_columns.nullity, 0);
-  EXPECT_EQ(no_columns.unbalanced, Eigen::Vector2d(0, 1));
+  EXPECT_EQ(no_columns.unbalanced, Eigen::Vector2d(0, -1));
   const NullSpace zero = compute_null_space(Eigen::SparseMatrix<double>(2, 3), Eigen::Vector2d::Zero());
   EXPECT_EQ(zero.nullity, 3);
   EXPECT_EQ(zero.smallest_accepted, std::numeric_limits<double>::infinity());
@@ -114,15 +118,15 @@ TEST(NullSpace, OfNothing) {
 TEST(NullSpace, OfPilesHasAtLeastTheNullityOfTheCount) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const Packing packing = zoo::random_pile(seed, 7, seed % 2 == 0 ? 0.3 : -1);
-    const ContactMatrix contacts = build_contact_matrix(packing, natural_modes(packing));
+    const EquilibriumProblem problem = pose_equilibrium(packing);
     SCOPED_TRACE(seed);
-    expect_as_dense(contacts.matrix, contacts.wrench);
-    EXPECT_GE(compute_null_space(contacts.matrix, contacts.wrench).nullity,
-              contacts.unknowns() - contacts.equations());
+    expect_as_dense(problem.matrix, problem.load());
+    EXPECT_GE(compute_null_space(problem.matrix, problem.load()).nullity,
+              problem.unknowns() - problem.equations());
   }
   const Packing lattice = zoo::lattice_pile(6, 0.3);
-  const ContactMatrix contacts = build_contact_matrix(lattice, natural_modes(lattice));
-  expect_as_dense(contacts.matrix, contacts.wrench);
+  const EquilibriumProblem problem = pose_equilibrium(lattice);
+  expect_as_dense(problem.matrix, problem.load());
 }
 
 TEST(NullSpace, DoubtfulSingularValuesAreReportedAndDecidedByTheDenseDecomposition) {
@@ -148,7 +152,9 @@ TEST(NullSpace, MotionGivesTheWantedRelativeVelocities) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     const Eigen::MatrixXd matrix = random_matrix(7, 3, 1, random) * random_matrix(3, 10, 1, random);
     const Eigen::VectorXd q = matrix.transpose() * random_matrix(7, 1, 1, random);
-    const Eigen::VectorXd v = motion_from_contacts(matrix.sparseView(), q);
+    const Eigen::VectorXd b = matrix * random_matrix(10, 1, 1, random);
+    const NullSpace null_space = compute_null_space(matrix.sparseView(), b);
+    const Eigen::VectorXd v = motion_from_contacts(null_space, 7, q);
     EXPECT_LE((matrix.transpose() * v - q).norm(), 1e-11 * q.norm());
   }
 }

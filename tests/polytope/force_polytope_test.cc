@@ -23,10 +23,10 @@ void expect_consistent(const Packing& packing, const ForcePolytope& polytope) {
     return;
   }
   EXPECT_GE(polytope.lightest.size() > 0 ? polytope.lightest.minCoeff() : 0, -1e-12);
-  const Eigen::VectorXd state = contact_state(polytope, polytope.lightest);
+  const Eigen::VectorXd state = polytope.problem.state(polytope.lightest).value();
   EXPECT_LE((c * state + w).lpNorm<Eigen::Infinity>(), 1e-11 * std::max(1.0, state.norm()));
   if (polytope.status == PolytopeStatus::kUnbounded) {
-    EXPECT_TRUE(test::is_recession_ray(packing, contact_state(polytope, polytope.ray), 1e-11));
+    EXPECT_TRUE(test::is_recession_ray(packing, polytope.problem.state(polytope.ray).value(), 1e-11));
   }
   int dim = 0;
   std::set<int> seen;
@@ -39,9 +39,9 @@ void expect_consistent(const Packing& packing, const ForcePolytope& polytope) {
     for (std::size_t k = 0; k < block.edges.size(); ++k)
       EXPECT_NEAR(vertex.x[static_cast<Eigen::Index>(k)], polytope.lightest[block.edges[k]], 1e-11);
     for (int j = 0; j < block.set.dim(); ++j) {
-      Eigen::VectorXd x = Eigen::VectorXd::Zero(polytope.contacts.unknowns());
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(polytope.problem.unknowns());
       x(block.edges) = block.set.slope.col(j);
-      EXPECT_LE((c * contact_state(polytope, x)).norm(), 1e-11);
+      EXPECT_LE((c * polytope.problem.state(x).value()).norm(), 1e-11);
     }
     EXPECT_EQ(block.set.equations.rows(), block.set.inequalities() - block.set.dim());
     EXPECT_LE((block.set.equations * block.set.slope).norm(), 1e-12);
@@ -83,7 +83,7 @@ TEST(ForcePolytope, LightestStateIsThatOfAllVertices) {
     double least = 1e300;
     for (Eigen::Index i = 0; i < states.vertices.rows(); ++i)
       least = std::min(least, total(states.vertices.row(i).transpose()));
-    EXPECT_NEAR(total(contact_state(polytope, polytope.lightest)), least, 1e-9) << seed;
+    EXPECT_NEAR(total(polytope.problem.state(polytope.lightest).value()), least, 1e-9) << seed;
   }
 }
 
@@ -96,12 +96,12 @@ TEST(ForcePolytope, IndependentGroovesAreTwoBlocks) {
 
 TEST(ForcePolytope, ClosedContactsLoseTheirUnknowns) {
   const ForcePolytope polytope = find_force_polytope(zoo::wedge_and_corner(0.4, 0.3));
-  EXPECT_EQ(polytope.null_space.nullity, 2);
+  EXPECT_EQ(polytope.natural_null_space->nullity, 2);
   EXPECT_EQ(polytope.dim, 1);
-  EXPECT_EQ(polytope.contacts.modes[3], ContactMode::kOpen);
-  EXPECT_EQ(polytope.contacts.modes[0], ContactMode::kStick);
+  EXPECT_EQ(polytope.problem.modes[3], ContactMode::kOpen);
+  EXPECT_EQ(polytope.problem.modes[0], ContactMode::kStick);
   const ForcePolytope sliding = find_force_polytope(zoo::corner(0.4, 1));
-  EXPECT_EQ(sliding.contacts.modes[1], ContactMode::kSlidePlus);
+  EXPECT_EQ(sliding.problem.modes[1], ContactMode::kSlidePlus);
   EXPECT_EQ(sliding.dim, 1);
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "libindet/contact/contact_matrix.h"
+#include "libindet/equilibrium/contact_state.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
 #include "tests/support/zoo.h"

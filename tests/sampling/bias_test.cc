@@ -19,8 +19,8 @@ UniformSample draw(const ConvexBody& body, std::uint64_t seed) {
 }
 
 /// States of another uniform sample, in the order in which they were drawn.
-Eigen::MatrixXd states_of(const ConvexBody& body, const UniformSample& sample) {
-  return (body.frame * sample.z).colwise() + body.origin;
+WeightStates states_of(const ConvexBody& body, const UniformSample& sample) {
+  return body.units.weights(body.states(sample.z));
 }
 
 /// [0, 1]^2n as a body whose even components play the normal forces.
@@ -35,7 +35,7 @@ TEST(Bias, OfAnotherUniformSampleIsNone) {
   double noise = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const SamplingBias bias = compare_with_uniform(body, sample, states_of(body, draw(body, seed)), nullptr);
-    EXPECT_NEAR(bias.r, sample.r, 5 * std::hypot(bias.r_error, sample.r_error));
+    EXPECT_NEAR(bias.r, sample.r.value(), 5 * std::hypot(bias.r_error, sample.r_error.value()));
     EXPECT_NEAR(bias.ratio, 1, 5 * bias.ratio_error);
     shift += bias.center_shift * bias.center_shift / 20;
     noise += bias.center_noise * bias.center_noise / 20;
@@ -59,7 +59,7 @@ TEST(Bias, OfAChainInTheUpperHalfOfOneCoordinate) {
   Eigen::MatrixXd chain(2 * contacts, 600);
   for (double& x : chain.reshaped()) x = random.uniform();
   chain.row(0) = (chain.row(0).array() + 1) / 2;
-  const SamplingBias bias = compare_with_uniform(body, sample, chain, nullptr);
+  const SamplingBias bias = compare_with_uniform(body, sample, WeightStates(chain), nullptr);
   EXPECT_EQ(bias.states, 600);
   EXPECT_NEAR(bias.center_shift, 0.25, 4 * bias.center_shift_error);
   EXPECT_LT(bias.center_shift_error, 0.02);
@@ -82,7 +82,7 @@ TEST(Bias, OfAChainThatCreepsIsNotTested) {
   const UniformSample sample = draw(body, 0);
   Eigen::MatrixXd chain(4, 100);
   for (int i = 0; i < 100; ++i) chain.col(i).setConstant(0.3 + 0.004 * i);
-  const SamplingBias bias = compare_with_uniform(body, sample, chain, nullptr);
+  const SamplingBias bias = compare_with_uniform(body, sample, WeightStates(chain), nullptr);
   EXPECT_LT(bias.effective.maxCoeff(), 10);
   EXPECT_EQ(bias.tested, 0);
   EXPECT_TRUE(std::isnan(bias.tests[0].p_mean));

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "libindet/base/error.h"
+#include "libindet/equilibrium/contact_state.h"
 #include "libindet/range/analyze.h"
+#include "libindet/sampling/shape.h"
 #include "libindet/sampling/uniform_sampling.h"
 #include "tests/support/zoo.h"
 
@@ -26,14 +28,14 @@ TEST(Wedge, IsAUniformSegment) {
   const UniformSample sample = draw(body);
   ASSERT_TRUE(sample.converged);
   const double error = 4 / std::sqrt(12 * sample.bulk);
-  EXPECT_NEAR((sample.center[0] - exact.R_min) / exact.delta_R, 0.5, error);
-  EXPECT_NEAR((sample.center[1] - exact.T_min) / exact.delta_T, 0.5, error);
-  EXPECT_NEAR(sample.center[2], sample.center[0], 1e-12);
-  EXPECT_NEAR(sample.center[3], -sample.center[1], 1e-12);
+  EXPECT_NEAR((sample.center.value()[0] - exact.R_min) / exact.delta_R, 0.5, error);
+  EXPECT_NEAR((sample.center.value()[1] - exact.T_min) / exact.delta_T, 0.5, error);
+  EXPECT_NEAR(sample.center.value()[2], sample.center.value()[0], 1e-12);
+  EXPECT_NEAR(sample.center.value()[3], -sample.center.value()[1], 1e-12);
   // The segment has the length (2 δR² + 2 δT²)^½ in the space of forces, and r = length/√12.
   const double length = std::sqrt(2 * (exact.delta_R * exact.delta_R + exact.delta_T * exact.delta_T));
-  EXPECT_NEAR(sample.r, length / std::sqrt(12.0), 4 * sample.r_error);
-  EXPECT_LT(sample.r_error, 0.05 * sample.r);
+  EXPECT_NEAR(sample.r.value(), length / std::sqrt(12.0), 4 * sample.r_error.value());
+  EXPECT_LT(sample.r_error.value(), 0.05 * sample.r.value());
   EXPECT_NEAR(sample.ball.radius, length / 2, 1e-9);
 }
 
@@ -43,9 +45,10 @@ TEST(Wedge, HasTheCovarianceOfASegment) {
   const UniformSample sample = draw(body);
   const Eigen::MatrixXd covariance = body.frame * sample.covariance * body.frame.transpose();
   for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(std::sqrt(covariance(i, i)), sample.deviation[i], 1e-12);
+    EXPECT_NEAR(std::sqrt(covariance(i, i)), sample.deviation.value()[i], 1e-12);
     for (int k = 0; k < 4; ++k)
-      EXPECT_NEAR(std::abs(covariance(i, k)), sample.deviation[i] * sample.deviation[k], 1e-12);
+      EXPECT_NEAR(std::abs(covariance(i, k)), sample.deviation.value()[i] * sample.deviation.value()[k],
+                  1e-12);
   }
   EXPECT_LT(covariance(1, 3), 0);
 }
@@ -54,10 +57,10 @@ TEST(TwoWedges, AreIndependent) {
   const ConvexBody body = make_body(find_force_polytope(zoo::two_wedges(0.4, 0.3, 0.7, 0.2)));
   ASSERT_EQ(body.blocks.size(), 2U);
   const UniformSample sample = draw(body);
-  const Eigen::VectorXd left = component_of(body, sample, 0);
-  const Eigen::VectorXd right = component_of(body, sample, 4);
+  const Eigen::VectorXd left = component_of(body, sample, 0).value();
+  const Eigen::VectorXd right = component_of(body, sample, 4).value();
   const double correlation = ((left.array() - left.mean()) * (right.array() - right.mean())).mean() /
-                             (sample.deviation[0] * sample.deviation[4]);
+                             (sample.deviation.value()[0] * sample.deviation.value()[4]);
   EXPECT_LT(std::abs(correlation), 4 / std::sqrt(sample.bulk));
 }
 
@@ -75,10 +78,37 @@ TEST(Frame, IsIsometricAndKeepsBalance) {
     const UniformSample sample = draw(body);
     EXPECT_TRUE(sample.converged);
     for (Eigen::Index i = 0; i < sample.z.cols(); i += 97) {
-      const Eigen::VectorXd F = (body.origin + body.frame * sample.z.col(i)) * packing.force_unit();
+      const SceneForces F = body.units.scene(InternalForces(body.states(sample.z.col(i)).value()));
       EXPECT_LT(equilibrium_residual(packing, F).cwiseAbs().maxCoeff(), 1e-11);
       EXPECT_EQ(count_coulomb(packing, F, 1e-11).violated, 0);
     }
+  }
+}
+
+/// The same sample in mg and in the scene's unit, whatever unit of force the scene names: named ones far from
+/// the weights are not those in which the equilibrium problem is posed.
+TEST(Samples, DoNotDependOnTheUnitOfForceThatTheSceneNames) {
+  Packing packing = zoo::column(6, 0.3, 0.4);
+  const ForceRanges ranges = analyze(packing);
+  const double mg = packing.force_unit();
+  const UniformSample expected = draw(make_body(find_force_polytope(packing)));
+  for (const double named : {1e-6, 1e-3, 1.0, 30000.0, 1e6}) {
+    SCOPED_TRACE(named);
+    packing.named_force_unit = named * mg;
+    const ConvexBody body = make_body(find_force_polytope(packing));
+    const UniformSample sample = draw(body);
+    const Eigen::VectorXd center = body.units.scene(sample.center).value();
+    for (Eigen::Index k = 0; k < center.size(); ++k) {
+      const int column = k % 2 == 0 ? kMinR : kMinT;
+      EXPECT_GE(center[k], ranges.value(k / 2, column) - 1e-9 * mg);
+      EXPECT_LE(center[k], ranges.value(k / 2, column + 1) + 1e-9 * mg);
+    }
+    // Another unit is another rounding of the coordinates, and so another sample of the same distribution.
+    const double error = 5 * mg * std::hypot(expected.r_error.value(), expected.r_error.value());
+    EXPECT_NEAR(body.units.scene(sample.r).value(), expected.r.value() * mg, error);
+    const PolytopeShape shape = measure_shape(body, sample, nullptr);
+    EXPECT_NEAR(shape.inscribed_radius * named * mg,
+                body.units.scene(InternalForce(sample.ball.radius)).value(), 1e-12 * mg);
   }
 }
 
@@ -92,7 +122,7 @@ TEST(Samples, LieInsideTheRangesThatLinearProgramsFind) {
     const UniformSample sample = draw(body, 1, seed);
     EXPECT_TRUE(sample.converged) << seed;
     for (int k = 0; k < body.frame.rows(); ++k) {
-      const Eigen::VectorXd values = component_of(body, sample, k) * packing.force_unit();
+      const Eigen::VectorXd values = body.units.scene(component_of(body, sample, k)).value();
       const int column = k % 2 == 0 ? kMinR : kMinT;
       EXPECT_GE(values.minCoeff(), ranges.value(k / 2, column) - 1e-9);
       EXPECT_LE(values.maxCoeff(), ranges.value(k / 2, column + 1) + 1e-9);

@@ -134,7 +134,7 @@ TEST(Shape, OfAPackingIsBoundedFromBothSides) {
   EXPECT_LE(shape.diameter_upper, shape.diameter_by_ranges);
   EXPECT_LE(2 * shape.inscribed_radius, shape.mean_width);
   EXPECT_LE(shape.mean_width, shape.diameter_upper);
-  EXPECT_LE(2 * sample.r, shape.diameter_upper * std::sqrt(2));
+  EXPECT_LE(2 * sample.r.value(), shape.diameter_upper * std::sqrt(2));
 }
 
 /// With too few pivots allowed linear programs are not solved, and nothing takes the place of what needs
@@ -159,14 +159,13 @@ TEST(Placement, OfASampleIsSomewhereInTheMiddleAndOfAnExtremalStateAtTheEnd) {
   const ConvexBody body = make_body(find_force_polytope(packing));
   const UniformSample sample = draw(body);
   const ForceRanges ranges = analyze(packing);
-  const double unit = packing.force_unit();
 
   // Over many samples the percentiles of a sample are uniform: their mean is 50 ± 29/√n.
   double norm = 0, distance = 0, inside = 0, place = 0;
   constexpr int kStates = 50;
   for (int i = 0; i < kStates; ++i) {
-    const Eigen::VectorXd F = body.origin + body.frame * sample.z.col(i * sample.count() / kStates);
-    const Placement p = place_state(packing, body, sample, unit * F, &ranges);
+    const InternalForces F(body.states(sample.z.col(i * sample.count() / kStates)).value());
+    const Placement p = place_state(packing, body, sample, body.units.scene(F), &ranges);
     norm += p.norm_percentile / kStates;
     distance += p.distance_percentile / kStates;
     inside += p.central_fraction_R / kStates;
@@ -182,8 +181,8 @@ TEST(Placement, OfASampleIsSomewhereInTheMiddleAndOfAnExtremalStateAtTheEnd) {
   EXPECT_NEAR(place, 50, 4 * 29 / std::sqrt(kStates));
 
   const ForcePolytope polytope = find_force_polytope(packing);
-  const Eigen::VectorXd lightest = contact_state(polytope, polytope.lightest);
-  const Placement end = place_state(packing, body, sample, unit * lightest, &ranges);
+  const InternalForces lightest = polytope.problem.state(polytope.lightest);
+  const Placement end = place_state(packing, body, sample, body.units.scene(lightest), &ranges);
   EXPECT_EQ(end.normal_force_percentile, 0);
   EXPECT_GE(end.sliding, 1);
   EXPECT_EQ(end.sliding_percentile, 100);

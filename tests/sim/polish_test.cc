@@ -19,7 +19,7 @@ Simulation settled(int disks, std::uint64_t seed) {
 
 TEST(Polish, MovesNearlyBalancedForcesOntoThePolytope) {
   const Packing packing = settled(30, 1).packing;
-  const Eigen::VectorXd balanced = packing.simulated_forces();
+  const Eigen::VectorXd balanced = packing.simulated_forces().value();
   const double unit = packing.force_unit();
   Eigen::VectorXd raw = balanced;
   Random random(2);
@@ -36,7 +36,7 @@ TEST(Polish, MovesNearlyBalancedForcesOntoThePolytope) {
 
 TEST(Polish, LeavesBalancedForcesAlone) {
   const Packing packing = settled(30, 2).packing;
-  const Polished result = polish(packing, packing.simulated_forces());
+  const Polished result = polish(packing, packing.simulated_forces().value());
   EXPECT_TRUE(result.balanced);
   EXPECT_LT(result.distance, 1e-11);
 }
@@ -68,7 +68,7 @@ TEST(Polish, SaysSoWhereNothingCanBalance) {
   add_disk(world, {0, 1});
   add_disk(world, {5, 7});
   const Packing packing = packing_of(world, {{.a = 0, .b = -1, .mu = 0.3, .R = 3, .T = 0}});
-  const Polished result = polish(packing, packing.simulated_forces());
+  const Polished result = polish(packing, packing.simulated_forces().value());
   EXPECT_FALSE(result.balanced);
   EXPECT_NEAR(result.residual, 1, 1e-9);
   EXPECT_NE(result.reason, "");
@@ -92,7 +92,7 @@ TEST(StaticSolver, FindsTheWeightOfATower) {
 
 TEST(StaticSolver, StartingFromASolutionItStaysThere) {
   const Packing packing = settled(30, 3).packing;
-  const Eigen::VectorXd start = packing.simulated_forces();
+  const Eigen::VectorXd start = packing.simulated_forces().value();
   const StaticForces result = solve_statics(packing, start);
   EXPECT_TRUE(result.converged);
   EXPECT_LT((result.forces - start).norm() / packing.force_unit(), 1e-9);

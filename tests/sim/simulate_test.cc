@@ -163,7 +163,7 @@ bool identical(const Simulation& p, const Simulation& q) {
     const Disk& b = q.raw[DiskId(i)];
     if (a.position != b.position || a.velocity != b.velocity || a.angle != b.angle) return false;
   }
-  return p.raw.simulated_forces() == q.raw.simulated_forces();
+  return p.raw.simulated_forces().value() == q.raw.simulated_forces().value();
 }
 
 TEST(Simulate, ResumedRunIsIdenticalToAnUninterruptedOne) {

@@ -202,7 +202,7 @@ class Collector {
       double sum = 0;
       for (const Contact& c : packing.contacts) sum += c.R / mg;
       runs.set("mean_R", run, sum / packing.contact_count());
-      runs.set("norm", run, packing.simulated_forces().norm() / mg);
+      runs.set("norm", run, packing.simulated_forces().value().norm() / mg);
     }
     take_attributes(file, kAttributes, run, runs);
   }

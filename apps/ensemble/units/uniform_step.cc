@@ -87,25 +87,24 @@ void write_bias(Hdf5File& file, const SamplingBias& bias, int uniform_states) {
 
 }  // namespace
 
-UniformResult sample_uniformly(const Packing& packing, const ForceRanges& ranges,
-                               const Eigen::MatrixXd& chain, const UniformOptions& options) {
+UniformResult sample_uniformly(const Packing& packing, const ForceRanges& ranges, const WeightStates& chain,
+                               const UniformOptions& options) {
   const ForcePolytope polytope = find_force_polytope(packing);
   if (polytope.status != PolytopeStatus::kBounded)
     return {.outcome = outcome_without_sample(polytope.status)};
-  const double unit = packing.force_unit();
   const ConvexBody body = make_body(polytope);
   const UniformSample sample = sample_uniformly(body, options);
   UniformResult result{.outcome = sample.converged ? "converged" : "limit"};
   result.record = SamplingRecord{.method = "uniform",
-                                 .center = unit * sample.center,
+                                 .center = body.units.scene(sample.center).value(),
                                  .numbers = numbers_of(polytope, sample, options),
-                                 .components = components_of(body, sample, unit)};
+                                 .components = components_of(body, sample)};
   if (packing.has_simulated_forces()) {
     const Placement placement = place_state(packing, body, sample, packing.simulated_forces(), &ranges);
     result.record->numbers.merge(numbers_of(placement));
     result.percentile_R = placement.percentile_R;
   }
-  if (chain.cols() >= kFewestStates) result.bias = compare_with_uniform(body, sample, chain, &ranges);
+  if (chain.value().cols() >= kFewestStates) result.bias = compare_with_uniform(body, sample, chain, &ranges);
   return result;
 }
 

@@ -22,10 +22,10 @@ struct UniformResult {
 };
 
 /// Samples the polytope uniformly and compares with `chain`, the states of perturb-and-resolve in the order
-/// in which they were found (2M × S, in mg; with fewer than 32 there is no comparison). The result does not
+/// in which they were found (2M × S; with fewer than 32 there is no comparison). The result does not
 /// depend on the number of threads. Throws LibraryError, Interrupted.
-UniformResult sample_uniformly(const Packing& packing, const ForceRanges& ranges,
-                               const Eigen::MatrixXd& chain, const UniformOptions& options);
+UniformResult sample_uniformly(const Packing& packing, const ForceRanges& ranges, const WeightStates& chain,
+                               const UniformOptions& options);
 
 /// Writes /uniform and /bias (docs/file-format.md).
 void write_uniform_part(Hdf5File& file, const UniformResult& result);

@@ -68,19 +68,19 @@ void analyze_unit(const EnsembleConfig& config, const ProgressCallback& progress
   result.seconds["analyze_solver_states"] = watch.seconds();
 }
 
-/// The accepted solutions in the order in which they were found: 2M × S, in mg.
-Eigen::MatrixXd chain_of(const sim::PerturbEnsemble& ensemble, const Packing& packing) {
+/// The accepted solutions in the order in which they were found: 2M × S.
+WeightStates chain_of(const sim::PerturbEnsemble& ensemble, const Packing& packing) {
   Eigen::MatrixXd chain(2 * packing.contact_count(), ensemble.accepted);
   Eigen::Index column = 0;
   for (const sim::PerturbSample& sample : ensemble.samples) {
-    if (sample.accepted) chain.col(column++) = sample.forces / packing.force_unit();
+    if (sample.accepted) chain.col(column++) = sample.forces;
   }
-  return chain;
+  return packing.force_units().weights(SceneStates(std::move(chain)));
 }
 
 /// Perturb-and-resolve; returns its states.
-Eigen::MatrixXd sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
-                            UnitResult& result) {
+WeightStates sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
+                         UnitResult& result) {
   if (config.sampling.samples <= 0 || !result.packing.has_simulated_forces()) return {};
   if (result.packing.contacts.empty()) return {};
   const Stopwatch watch;
@@ -92,7 +92,7 @@ Eigen::MatrixXd sample_unit(const EnsembleConfig& config, const Unit& unit, cons
   return chain_of(ensemble, result.packing);
 }
 
-void sample_unit_uniformly(const EnsembleConfig& config, const Unit& unit, const Eigen::MatrixXd& chain,
+void sample_unit_uniformly(const EnsembleConfig& config, const Unit& unit, const WeightStates& chain,
                            const ProgressCallback& progress, UnitResult& result) {
   const Stopwatch watch;
   UniformOptions options = config.uniform;
@@ -132,7 +132,7 @@ UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const st
     simulate_unit(config, unit, first, progress, result);
   }
   analyze_unit(config, progress, result);
-  const Eigen::MatrixXd chain = sample_unit(config, unit, progress, result);
+  const WeightStates chain = sample_unit(config, unit, progress, result);
   if (unit.uniform) sample_unit_uniformly(config, unit, chain, progress, result);
   return result;
 }

@@ -1,0 +1,53 @@
+#include "libindet/equilibrium/contact_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indet {
+
+Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(const Packing& packing,
+                                                                               const SceneForces& forces) {
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> residual(packing.disk_count(), 3);
+  const double unit = packing.force_unit();
+  for (int i = 0; i < packing.disk_count(); ++i) {
+    Vector3 wrench = packing.wrench(DiskId(i)) / unit;
+    wrench.z() /= packing[DiskId(i)].radius;
+    residual.row(i) = wrench.transpose();
+  }
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& contact = packing[ContactId(i)];
+    const double tangential = forces.value()[2 * i + 1] / unit;
+    const Vector2 force = forces.value()[2 * i] / unit * contact.normal + tangential * contact.tangent();
+    const Vector3 on_a(force.x(), force.y(), tangential);
+    residual.row(contact.a.value()) += on_a.transpose();
+    if (!contact.b.is_wall()) {
+      residual.row(contact.b.disk_id().value()) += Vector3(-force.x(), -force.y(), tangential).transpose();
+    }
+  }
+  return residual;
+}
+
+CoulombCount count_coulomb(const Packing& packing, const SceneForces& forces, double epsilon) {
+  CoulombCount count;
+  const ForceUnits units = packing.force_units();
+  const InternalForces internal = units.internal(forces);
+  double worst = 0;
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const double R = internal.value()[2 * i];
+    const double T = std::abs(internal.value()[2 * i + 1]);
+    const double mu = packing[ContactId(i)].mu;
+    const double violation = std::max(-R, T - mu * R);
+    worst = std::max(worst, violation);
+    if (violation > epsilon) ++count.violated;
+    if (std::abs(R) < epsilon && T < epsilon) {
+      ++count.non_transmitting;
+      count.sliding += 2;
+    } else if (mu > 0 && mu * R - T < epsilon) {
+      ++count.sliding;
+    }
+  }
+  count.worst_violation = units.weights(InternalForce(worst)).value();
+  return count;
+}
+
+}  // namespace indet

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "libindet/packing/packing.h"
+
+namespace indet {
+
+/// The residual of equilibrium of each disk, computed contact by contact from the packing (not from a
+/// matrix): force x, force y, torque/r in mg, [N, 3]. `forces`: 2M.
+Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(const Packing& packing,
+                                                                               const SceneForces& forces);
+
+/// How a contact state stands to the Coulomb conditions [16], with tolerance ε (in the internal unit of
+/// force, which is mg unless the scene names a unit that says little about it).
+struct CoulombCount {
+  int sliding = 0;             ///< μR − |T| < ε, counting a non-transmitting contact twice (Sec. II E)
+  int non_transmitting = 0;    ///< R, |T| < ε
+  int violated = 0;            ///< R < −ε or |T| > μR + ε
+  double worst_violation = 0;  ///< largest of −R and |T| − μR, mg; 0 if none
+};
+CoulombCount count_coulomb(const Packing& packing, const SceneForces& forces, double epsilon);
+
+}  // namespace indet

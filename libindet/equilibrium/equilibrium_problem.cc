@@ -1,0 +1,289 @@
+#include "libindet/equilibrium/equilibrium_problem.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace indet {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+Eigen::SparseMatrix<double> assemble(int rows, int columns, const Triplets& triplets) {
+  Eigen::SparseMatrix<double> matrix(rows, columns);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+int unknowns_of_mode(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::kStick:
+      return 2;
+    case ContactMode::kSlidePlus:
+    case ContactMode::kSlideMinus:
+    case ContactMode::kFrictionless:
+      return 1;
+    case ContactMode::kOpen:
+      return 0;
+  }
+  return 0;
+}
+
+/// Sign of T on edge k of a contact.
+int edge_sign(ContactMode mode, int k) {
+  if (mode == ContactMode::kStick) return k == 0 ? 1 : -1;
+  if (mode == ContactMode::kSlidePlus) return 1;
+  if (mode == ContactMode::kSlideMinus) return -1;
+  return 0;
+}
+
+/// Which equations the scene needs, numbered; −1 where an equation is left out.
+class RowNumbering {
+ public:
+  RowNumbering(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units)
+      : numbers_(packing.disks.size(), {-1, -1, -1}) {
+    std::vector<std::array<bool, 3>> needed(packing.disks.size(), {false, false, false});
+    const auto touch = [&](DiskId disk, bool turns) {
+      auto& components = needed[static_cast<std::size_t>(disk.value())];
+      components[0] = components[1] = true;
+      components[2] = components[2] || turns;
+    };
+    for (int i = 0; i < packing.contact_count(); ++i) {
+      const ContactMode mode = modes[static_cast<std::size_t>(i)];
+      const Contact& contact = packing[ContactId(i)];
+      if (mode == ContactMode::kOpen) continue;
+      const bool turns = mode != ContactMode::kFrictionless;
+      touch(contact.a, turns);
+      if (!contact.b.is_wall()) touch(contact.b.disk_id(), turns);
+    }
+    for (int i = 0; i < packing.disk_count(); ++i) {
+      const Vector3 wrench = packing.wrench(DiskId(i));
+      const Disk& disk = packing[DiskId(i)];
+      for (int k = 0; k < 3; ++k) {
+        const auto number = static_cast<std::size_t>(i);
+        const auto component = static_cast<std::size_t>(k);
+        if (!needed[number][component] && wrench[k] == 0) continue;
+        numbers_[number][component] = static_cast<int>(rows_.size());
+        const double weight = k < 2 ? std::abs(disk.mass * packing.gravity[k]) : 0;
+        rows_.push_back({DiskId(i), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
+                         weight + std::abs(disk.load[k])});
+      }
+    }
+  }
+
+  int operator()(DiskId disk, int component) const {
+    return numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
+  }
+  const std::vector<EquilibriumRow>& rows() const { return rows_; }
+
+ private:
+  std::vector<std::array<int, 3>> numbers_;
+  std::vector<EquilibriumRow> rows_;
+};
+
+/// Adds the column of the force (R, T) of one contact: c_iα [15] times (R, T), torque rows divided by the
+/// radius.
+void add_column(const RowNumbering& number, const Contact& contact, double R, double T, int column,
+                Triplets& out) {
+  const Vector2 force = R * contact.normal + T * contact.tangent();
+  const auto add = [&](DiskId disk, double sign) {
+    out.emplace_back(number(disk, 0), column, sign * force.x());
+    out.emplace_back(number(disk, 1), column, sign * force.y());
+    if (T != 0) out.emplace_back(number(disk, 2), column, T);
+  };
+  add(contact.a, 1);
+  if (!contact.b.is_wall()) add(contact.b.disk_id(), -1);
+}
+
+/// The edges, and what follows from them and the modes alone: forces, to_edges, edge_forces.
+void describe_unknowns(EquilibriumProblem& problem) {
+  Triplets forces;
+  Triplets to_edges;
+  Triplets edge_forces;
+  problem.edges.clear();
+  int column = 0;
+  for (std::size_t i = 0; i < problem.modes.size(); ++i) {
+    const ContactMode mode = problem.modes[i];
+    const double mu = problem.contacts[i].mu;
+    const double kappa = 1 / std::max(1.0, mu);
+    const int row = 2 * static_cast<int>(i);
+    const int count = unknowns_of_mode(mode);
+    for (int k = 0; k < count; ++k) {
+      const int sign = edge_sign(mode, k);
+      const Edge edge{ContactId(static_cast<int>(i)), sign, kappa, sign * kappa * mu};
+      problem.edges.push_back(edge);
+      edge_forces.emplace_back(row, column + k, edge.R);
+      if (sign != 0) edge_forces.emplace_back(row + 1, column + k, edge.T);
+      if (mode == ContactMode::kStick) {  // unknowns R and T themselves
+        forces.emplace_back(row + k, column + k, 1.0);
+        to_edges.emplace_back(column + k, column, 0.5 / kappa);
+        to_edges.emplace_back(column + k, column + 1, sign * 0.5 / (kappa * mu));
+      } else {
+        forces.emplace_back(row, column, edge.R);
+        if (sign != 0) forces.emplace_back(row + 1, column, edge.T);
+        to_edges.emplace_back(column, column, 1.0);
+      }
+    }
+    column += count;
+  }
+  const int components = 2 * static_cast<int>(problem.modes.size());
+  problem.forces = assemble(components, column, forces);
+  problem.to_edges = assemble(column, column, to_edges);
+  problem.edge_forces = assemble(components, column, edge_forces);
+}
+
+/// The first unknown of each contact, −1 if it has none.
+std::vector<int> first_unknowns(const EquilibriumProblem& problem) {
+  std::vector<int> first(problem.modes.size(), -1);
+  for (int k = problem.unknowns() - 1; k >= 0; --k)
+    first[static_cast<std::size_t>(problem.edges[static_cast<std::size_t>(k)].contact.value())] = k;
+  return first;
+}
+
+bool is_stick(const EquilibriumProblem& problem, const Edge& edge) {
+  return problem.modes[static_cast<std::size_t>(edge.contact.value())] == ContactMode::kStick;
+}
+
+}  // namespace
+
+std::vector<ContactMode> natural_modes(const Packing& packing) {
+  std::vector<ContactMode> modes;
+  modes.reserve(packing.contacts.size());
+  for (const Contact& contact : packing.contacts) {
+    modes.push_back(contact.mu > 0 ? ContactMode::kStick : ContactMode::kFrictionless);
+  }
+  return modes;
+}
+
+Eigen::VectorXd EquilibriumProblem::unknowns_of(const InternalForces& state) const {
+  const Eigen::VectorXd& F = state.value();
+  Eigen::VectorXd u(unknowns());
+  for (int k = 0; k < unknowns(); ++k) {
+    const Edge& edge = edges[static_cast<std::size_t>(k)];
+    const int contact = edge.contact.value();
+    u[k] = is_stick(*this, edge) ? F[2 * contact + (edge.sign < 0 ? 1 : 0)] : F[2 * contact] / edge.R;
+  }
+  return u;
+}
+
+Eigen::VectorXd EquilibriumProblem::strengths_of(const InternalForces& state) const {
+  const Eigen::VectorXd& F = state.value();
+  Eigen::VectorXd x(unknowns());
+  for (int k = 0; k < unknowns(); ++k) {
+    const Edge& edge = edges[static_cast<std::size_t>(k)];
+    const int contact = edge.contact.value();
+    const double R = F[2 * contact] / edge.R;
+    x[k] = is_stick(*this, edge) ? (R + F[2 * contact + 1] / edge.T) / 2 : R;
+  }
+  return x;
+}
+
+EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes) {
+  EquilibriumProblem problem;
+  problem.units = packing.force_units();
+  problem.disks = packing.disk_count();
+  problem.modes.assign(modes.begin(), modes.end());
+  const RowNumbering number(packing, modes, problem.units);
+  problem.rows = number.rows();
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& contact = packing[ContactId(i)];
+    ContactEnds ends{contact.normal, contact.mu};
+    if (modes[static_cast<std::size_t>(i)] != ContactMode::kOpen) {
+      ends.a = number(contact.a, 0);
+      if (!contact.b.is_wall()) ends.b = number(contact.b.disk_id(), 0);
+    }
+    problem.contacts.push_back(ends);
+  }
+  describe_unknowns(problem);
+
+  Triplets matrix;
+  Triplets edge_matrix;
+  for (int column = 0; column < static_cast<int>(problem.edges.size()); ++column) {
+    const Edge& edge = problem.edges[static_cast<std::size_t>(column)];
+    const Contact& contact = packing[edge.contact];
+    add_column(number, contact, edge.R, edge.T, column, edge_matrix);
+    if (is_stick(problem, edge)) {
+      const bool is_normal = edge.sign > 0;
+      add_column(number, contact, is_normal ? 1 : 0, is_normal ? 0 : 1, column, matrix);
+    } else {
+      add_column(number, contact, edge.R, edge.T, column, matrix);
+    }
+  }
+  const int equations = static_cast<int>(problem.rows.size());
+  const int unknowns = static_cast<int>(problem.edges.size());
+  problem.matrix = assemble(equations, unknowns, matrix);
+  problem.edge_matrix = assemble(equations, unknowns, edge_matrix);
+  problem.right_hand_sides.resize(equations, 1);
+  for (int row = 0; row < equations; ++row) {
+    const EquilibriumRow& r = problem.rows[static_cast<std::size_t>(row)];
+    Vector3 wrench = packing.wrench(r.disk) / problem.units.internal_in_scene();
+    wrench.z() /= packing[r.disk].radius;
+    problem.right_hand_sides(row, 0) = -wrench[r.component];
+  }
+  return problem;
+}
+
+EquilibriumProblem pose_equilibrium(const Packing& packing) {
+  return pose_equilibrium(packing, natural_modes(packing));
+}
+
+EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<const ContactMode> modes) {
+  EquilibriumProblem result;
+  result.units = problem.units;
+  result.disks = problem.disks;
+  result.modes.assign(modes.begin(), modes.end());
+  result.contacts = problem.contacts;
+  describe_unknowns(result);
+
+  // The columns that are left: of a contact that sticks both, else that of its edge.
+  const std::vector<int> first = first_unknowns(problem);
+  Triplets matrix;
+  Triplets edge_matrix;
+  std::vector<bool> needed(static_cast<std::size_t>(problem.equations()), false);
+  const auto copy = [&](const Eigen::SparseMatrix<double>& from, int old, int column, Triplets& to) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(from, old); it; ++it) {
+      to.emplace_back(static_cast<int>(it.row()), column, it.value());
+      needed[static_cast<std::size_t>(it.row())] = true;
+    }
+  };
+  for (int column = 0; column < static_cast<int>(result.edges.size()); ++column) {
+    const Edge& edge = result.edges[static_cast<std::size_t>(column)];
+    const int before = first[static_cast<std::size_t>(edge.contact.value())];
+    const bool was_stick = is_stick(problem, problem.edges[static_cast<std::size_t>(before)]);
+    const int old = before + (was_stick && edge.sign < 0 ? 1 : 0);
+    copy(problem.edge_matrix, old, column, edge_matrix);
+    copy(is_stick(result, edge) ? problem.matrix : problem.edge_matrix, old, column, matrix);
+  }
+
+  std::vector<int> number(static_cast<std::size_t>(problem.equations()), -1);
+  for (int row = 0; row < problem.equations(); ++row) {
+    if (!needed[static_cast<std::size_t>(row)] && (problem.right_hand_sides.row(row).array() == 0).all())
+      continue;
+    number[static_cast<std::size_t>(row)] = static_cast<int>(result.rows.size());
+    result.rows.push_back(problem.rows[static_cast<std::size_t>(row)]);
+  }
+  const auto numbered = [&](Triplets triplets) {
+    for (auto& entry : triplets) {
+      entry = {number[static_cast<std::size_t>(entry.row())], static_cast<int>(entry.col()), entry.value()};
+    }
+    return triplets;
+  };
+  const int equations = static_cast<int>(result.rows.size());
+  const int unknowns = static_cast<int>(result.edges.size());
+  result.matrix = assemble(equations, unknowns, numbered(matrix));
+  result.edge_matrix = assemble(equations, unknowns, numbered(edge_matrix));
+  result.right_hand_sides.resize(equations, problem.right_hand_sides.cols());
+  for (std::size_t row = 0; row < number.size(); ++row) {
+    if (number[row] >= 0)
+      result.right_hand_sides.row(number[row]) = problem.right_hand_sides.row(static_cast<Eigen::Index>(row));
+  }
+  for (std::size_t i = 0; i < result.contacts.size(); ++i) {
+    const bool is_open = result.modes[i] == ContactMode::kOpen;
+    for (int* row : {&result.contacts[i].a, &result.contacts[i].b}) {
+      if (*row >= 0) *row = is_open ? -1 : number[static_cast<std::size_t>(*row)];
+    }
+  }
+  return result;
+}
+
+}  // namespace indet

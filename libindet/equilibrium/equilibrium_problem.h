@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libindet/packing/packing.h"
+
+namespace indet {
+
+/// How a contact may transmit force: which edges of its cone K_α = {R ≥ 0, |T| ≤ μR} are open.
+///
+///        T            both edges      kStick        two unknowns
+///        |  / T = +μR edge T = +μR    kSlidePlus    one unknown, T = +μR
+///        | /          edge T = −μR    kSlideMinus   one unknown, T = −μR
+///        |/___ R      μ = 0           kFrictionless one unknown, T = 0
+///        |\           none            kOpen         no unknown, R = T = 0
+///        | \ T = −μR
+enum class ContactMode : std::uint8_t { kStick, kSlidePlus, kSlideMinus, kFrictionless, kOpen };
+
+/// kStick where μ > 0, kFrictionless where μ = 0: what the scene allows.
+std::vector<ContactMode> natural_modes(const Packing& packing);
+
+/// What one equation balances.
+struct EquilibriumRow {
+  DiskId disk;
+  int component = 0;  ///< 0: force x, 1: force y, 2: torque divided by the radius
+  double unit = 1;    ///< of the equation as it would read in the scene's units: the internal unit of force,
+                      ///< times the radius for a torque
+  double load = 0;    ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
+};
+
+/// An unknown: the strength x ≥ 0 of one edge of one contact's cone.
+/// With κ = 1/max(1, μ), so that neither component of an edge exceeds 1:
+///   R = κ Σ x,  T = κ μ Σ ± x,  and for kStick  μR + T = 2κμ x₊,  μR − T = 2κμ x₋.
+struct Edge {
+  ContactId contact;
+  int sign = 0;  ///< +1: T = +μR, −1: T = −μR, 0: frictionless.
+  double R = 0;  ///< R of the edge for x = 1: κ.
+  double T = 0;  ///< T of the edge for x = 1: ±κμ.
+};
+
+/// The two ends of a contact in the equations. One that is open (kOpen) has none there.
+struct ContactEnds {
+  Vector2 normal{0, 0};  ///< n̂
+  double mu = 0;
+  int a = -1, b = -1;  ///< the equation of force x of each body; force y is the next. −1: it has none.
+
+  /// t̂ = n̂ × ẑ [10].
+  Vector2 tangent() const { return {normal.y(), -normal.x()}; }
+};
+
+/// The equilibrium problem of a packing: everything that later stages need of it, in the internal unit of
+/// force.
+///
+///     find F with   A F = b,   F in K
+///
+/// Paper: cF = −w [5, 15]. Torque equations are divided by the disk's radius; the coefficients are then n̂, t̂
+/// and 1, whatever the scale of the scene. A disk whose contacts are all frictionless has no torque equation
+/// (unless a torque acts on it); a disk with neither contact nor load has none.
+///
+/// Columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or nothing
+/// (kOpen):   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
+struct EquilibriumProblem {
+  Eigen::SparseMatrix<double> matrix;    ///< A: equations × unknowns
+  Eigen::MatrixXd right_hand_sides;      ///< equations × loads: b, one column a load; the first is what acts
+  std::vector<EquilibriumRow> rows;      ///< what each equation is
+  std::vector<ContactMode> modes;        ///< M
+  std::vector<ContactEnds> contacts;     ///< M
+  Eigen::SparseMatrix<double> forces;    ///< 2M × unknowns: F = forces · u
+  std::vector<Edge> edges;               ///< unknowns (there are as many edges as unknowns)
+  Eigen::SparseMatrix<double> to_edges;  ///< unknowns × unknowns, block diagonal: x = to_edges · u;
+                                         ///< F ∈ K ⇔ x ≥ 0
+  Eigen::SparseMatrix<double> edge_matrix;  ///< A on edges: equations × unknowns, edge_matrix · x = b
+  Eigen::SparseMatrix<double> edge_forces;  ///< 2M × unknowns: F = edge_forces · x
+  ForceUnits units;                         ///< from the internal unit to others
+  int disks = 0;                            ///< N
+
+  int unknowns() const { return static_cast<int>(matrix.cols()); }
+  int equations() const { return static_cast<int>(matrix.rows()); }
+  /// b of the load that acts.
+  auto load() const { return right_hand_sides.col(0); }
+
+  /// The contact forces of edge strengths x.
+  InternalForces state(const Eigen::VectorXd& x) const { return InternalForces(edge_forces * x); }
+  /// The unknowns u of contact forces that keep to the modes. 2M.
+  Eigen::VectorXd unknowns_of(const InternalForces& forces) const;
+  /// The strengths x of contact forces. 2M.
+  Eigen::VectorXd strengths_of(const InternalForces& forces) const;
+};
+
+/// Builds the problem. Preconditions: find_defect(packing) is empty; modes.size() = M.
+EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes);
+/// With every contact as the scene has it.
+EquilibriumProblem pose_equilibrium(const Packing& packing);
+
+/// The same problem with other modes. Edges may only be closed: no mode allows more than the one it replaces.
+EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<const ContactMode> modes);
+
+}  // namespace indet
