@@ -20,7 +20,9 @@ Objective make_objective(const FeasibleSet& set, std::vector<std::pair<int, doub
 
 double Vertex::infeasibility() const { return x.size() == 0 ? 0 : std::max(0.0, -x.minCoeff()); }
 
-Eigen::VectorXd Vertex::edge(int k) const { return active.solve(Eigen::VectorXd::Unit(z.size(), k)); }
+Eigen::VectorXd Vertex::edge_direction(int k) const {
+  return active.solve(Eigen::VectorXd::Unit(z.size(), k));
+}
 
 Eigen::VectorXd Vertex::multipliers(const Eigen::Ref<const Eigen::VectorXd>& g) const {
   if (z.size() == 0) return {};
@@ -49,8 +51,8 @@ Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
   return vertex;
 }
 
-double edge_length(const FeasibleSet& set, const Vertex& vertex, int k) {
-  Eigen::VectorXd direction = set.slope * vertex.edge(k);
+double polytope_edge_length(const FeasibleSet& set, const Vertex& vertex, int k) {
+  Eigen::VectorXd direction = set.slope * vertex.edge_direction(k);
   for (const int active : vertex.basis) direction[active] = 0;
   double length = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {

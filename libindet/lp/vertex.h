@@ -16,8 +16,8 @@ struct Vertex {
   Eigen::VectorXd x;                            ///< K; exactly 0 at the active inequalities
   Eigen::PartialPivLU<Eigen::MatrixXd> active;  ///< factors of S_N, d × d
 
-  /// Column k of S_N⁻¹: the direction of the edge of F along which active inequality k is left.
-  Eigen::VectorXd edge(int k) const;
+  /// Column k of S_N⁻¹: the direction of the polytope's edge along which active inequality k is left.
+  Eigen::VectorXd edge_direction(int k) const;
 
   /// Largest violation of an inequality: max(0, −min x).
   double infeasibility() const;
@@ -30,8 +30,8 @@ struct Vertex {
 /// Throws LibraryError if the active rows are not independent. Preconditions: basis.size() = d.
 Vertex compute_vertex(const FeasibleSet& set, const Basis& basis);
 
-/// How far one can go from the vertex along edge k (the direction edge(k)) before another inequality
-/// stops it; +inf if nothing does. Inequalities in `basis` other than k hold along the edge.
-double edge_length(const FeasibleSet& set, const Vertex& vertex, int k);
+/// How far one can go from the vertex along the polytope's edge k (the direction edge_direction(k)) before
+/// another inequality stops it; +inf if nothing does. Inequalities in `basis` other than k hold along it.
+double polytope_edge_length(const FeasibleSet& set, const Vertex& vertex, int k);
 
 }  // namespace indet

@@ -10,14 +10,15 @@ namespace indet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Slacks that change by less than this along an edge do not end it.
+/// Slacks that change by less than this along an edge of the polytope do not end it.
 constexpr double kStill = 1e-11;
-/// Edge directions are lost where the smallest pivot of S_N is this small beside the largest.
+/// The directions of the polytope's edges are lost where the smallest pivot of S_N is this small beside the
+/// largest.
 constexpr double kSingular = 1e-12;
 /// Walks at N = 95 take some tens of steps.
 constexpr std::int64_t kStepLimit = 100000;
 
-/// Where the d edges of an extremal point lead.
+/// Where the d edges of the polytope at an extremal point lead.
 struct Neighbours {
   Eigen::MatrixXd direction;  ///< d × d, one edge a column
   Eigen::VectorXd length;     ///< +inf where nothing ends the edge
@@ -62,7 +63,7 @@ const char* to_string(WalkEnd end) {
       return "fewer active constraints than dimensions";
     case WalkEnd::kDirectionsLost:
       return "edge directions lost";
-    case WalkEnd::kEdgeWithoutEnd:
+    case WalkEnd::kPolytopeEdgeWithoutEnd:
       return "edge without end";
     case WalkEnd::kStepLimit:
       return "limit of steps";
@@ -72,8 +73,8 @@ const char* to_string(WalkEnd end) {
 
 NeighbourSearch::NeighbourSearch(const FeasibleSet& set, double epsilon) : set_(set), epsilon_(epsilon) {}
 
-Walk NeighbourSearch::walk(const Objective& objective, const Basis& start) const {
-  Walk walk;
+NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& start) const {
+  NeighbourWalk walk;
   walk.basis = start;
   const Vertex vertex = compute_vertex(set_, start);
   Eigen::VectorXd z = vertex.z;
@@ -108,7 +109,7 @@ Walk NeighbourSearch::walk(const Objective& objective, const Basis& start) const
       return end_at(has_more ? WalkEnd::kMoreActive : WalkEnd::kNoneBetter);
     }
     const int stop = neighbours.stop[static_cast<std::size_t>(best)];
-    if (stop < 0) return end_at(WalkEnd::kEdgeWithoutEnd);
+    if (stop < 0) return end_at(WalkEnd::kPolytopeEdgeWithoutEnd);
     if (walk.steps == kStepLimit) return end_at(WalkEnd::kStepLimit);
     z += neighbours.length[best] * neighbours.direction.col(best);
     x = set_.offset + set_.slope * z;

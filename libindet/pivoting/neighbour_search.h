@@ -9,17 +9,18 @@ namespace indet {
 
 /// How a walk over extremal points ended.
 enum class WalkEnd : std::uint8_t {
-  kNoneBetter,  ///< exactly d active inequalities, and no neighbour is better: success
-  kMoreActive,  ///< no neighbour is better, but more than d inequalities are active: edges may have no length
+  kNoneBetter,      ///< exactly d active inequalities, and no neighbour is better: success
+  kMoreActive,      ///< no neighbour is better, but more than d inequalities are active: polytope edges
+                    ///< may have no length
   kFewerActive,     ///< an inequality that should be active has drifted away by more than ε
-  kDirectionsLost,  ///< the active inequalities are dependent to rounding: no edge directions
-  kEdgeWithoutEnd,  ///< a better neighbour would lie at infinity
+  kDirectionsLost,  ///< the active inequalities are dependent to rounding: no directions of polytope edges
+  kPolytopeEdgeWithoutEnd,  ///< a better neighbour would lie at infinity
   kStepLimit
 };
 inline constexpr int kWalkEnds = 6;
 const char* to_string(WalkEnd end);
 
-struct Walk {
+struct NeighbourWalk {
   WalkEnd end = WalkEnd::kStepLimit;
   Basis basis;                  ///< where it ended
   std::int64_t steps = 0;       ///< moves to a neighbour
@@ -29,22 +30,22 @@ struct Walk {
 
 /// The paper's search (Sec. II G): at an extremal point each of the d active inequalities is relaxed in turn.
 /// The one direction that respects the other d − 1 is built from the active constraints; it leads along an
-/// edge to a neighbour, where another inequality becomes active. The walk goes to the best neighbour, until
-/// none is better. Non-transmitting contacts are two active inequalities, like two sliding contacts (Sec. II
-/// E).
+/// edge of the polytope to a neighbour, where another inequality becomes active. The walk goes to the best
+/// neighbour, until none is better. Non-transmitting contacts are two active inequalities, like two sliding
+/// contacts (Sec. II E).
 ///
-/// Directions of all edges are the columns of S_N⁻¹, so a step is one inversion (d³) and one product (K d²).
-/// The slope of the objective along an edge would tell beforehand which neighbours are worse; that thought is
-/// the simplex method's (tableau_solver.h), and the paper looks at all of them. As there, the point is moved
-/// along edges, so rounding adds up, and nothing is done about points at which more than d inequalities are
-/// active: failures are reported as they come.
+/// Directions of all these edges are the columns of S_N⁻¹, so a step is one inversion (d³) and one product (K
+/// d²). The slope of the objective along an edge would tell beforehand which neighbours are worse; that
+/// thought is the simplex method's (tableau_solver.h), and the paper looks at all of them. As there, the
+/// point is moved along edges, so rounding adds up, and nothing is done about points at which more than d
+/// inequalities are active: failures are reported as they come.
 class NeighbourSearch {
  public:
   /// `set` must outlive the search. `epsilon`: an inequality below it is active (force units).
   NeighbourSearch(const FeasibleSet& set, double epsilon);
 
   /// From a vertex to one that maximises the objective.
-  Walk walk(const Objective& objective, const Basis& start) const;
+  NeighbourWalk walk(const Objective& objective, const Basis& start) const;
 
  private:
   const FeasibleSet& set_;

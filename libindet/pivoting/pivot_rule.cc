@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Slacks that change by less than this along an edge (per unit of the slack that is left) do not stop it.
+/// Slacks that change by less than this along an edge of the polytope (per unit of the slack that is left) do
+/// not stop it.
 constexpr double kStill = 1e-11;
 
 /// How far each improving edge reaches; +inf where nothing stops it.
@@ -59,8 +60,8 @@ const char* to_string(PivotRule rule) {
   return "?";
 }
 
-int choose_edge(const Tableau& tableau, const Eigen::VectorXd& gradient, const std::vector<char>& is_held,
-                PivotRule rule, double tolerance) {
+int choose_column(const Tableau& tableau, const Eigen::VectorXd& gradient, const std::vector<char>& is_held,
+                  PivotRule rule, double tolerance) {
   std::vector<int> improving;
   for (Eigen::Index j = 0; j < gradient.size(); ++j) {
     if (gradient[j] > tolerance && !is_held[static_cast<std::size_t>(j)])
@@ -76,8 +77,8 @@ int choose_edge(const Tableau& tableau, const Eigen::VectorXd& gradient, const s
                            [&](int a, int b) { return merit(a) < merit(b); });
 }
 
-int choose_edge_by_number(const Tableau& tableau, const Eigen::VectorXd& gradient,
-                          const std::vector<char>& is_held, double tolerance) {
+int choose_column_by_number(const Tableau& tableau, const Eigen::VectorXd& gradient,
+                            const std::vector<char>& is_held, double tolerance) {
   int chosen = -1;
   for (int j = 0; j < static_cast<int>(gradient.size()); ++j) {
     if (gradient[j] <= tolerance || is_held[static_cast<std::size_t>(j)]) continue;

@@ -66,7 +66,7 @@ bool Tableau::build(const Basis& basis) {
   }
   rates_ = factors.solve(set_.slope(slack_, Eigen::all).transpose()).transpose();
   column_.resize(rates_.rows());
-  name_places();
+  update_positions();
   recompute_slacks();
   recompute_weights();
   return true;
@@ -117,7 +117,7 @@ void Tableau::exchange(const std::vector<int>& rows, const std::vector<int>& col
   rates_(rows, Eigen::all) = swapped;
   for (std::size_t i = 0; i < rows.size(); ++i)
     std::swap(slack_[static_cast<std::size_t>(rows[i])], active_[static_cast<std::size_t>(columns[i])]);
-  name_places();
+  update_positions();
   recompute_slacks();
   recompute_weights();
 }
@@ -157,8 +157,8 @@ void Tableau::pivot(int r, int q) {
   if (with_weights_ && ++weight_updates_ >= kWeightUpdates) recompute_weights();
   slacks_[r] = slack;
   std::swap(slack_[static_cast<std::size_t>(r)], active_[static_cast<std::size_t>(q)]);
-  place_[static_cast<std::size_t>(slack_[static_cast<std::size_t>(r)])] = {r, -1};
-  place_[static_cast<std::size_t>(active_[static_cast<std::size_t>(q)])] = {-1, q};
+  position_[static_cast<std::size_t>(slack_[static_cast<std::size_t>(r)])] = {r, -1};
+  position_[static_cast<std::size_t>(active_[static_cast<std::size_t>(q)])] = {-1, q};
 }
 
 double Tableau::error() const {
@@ -181,11 +181,11 @@ void Tableau::recompute_weights() {
 Eigen::VectorXd Tableau::gradient(const Objective& objective) const {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(rates_.cols());
   for (const auto& [inequality, coefficient] : objective.on_edges) {
-    const Place& place = place_[static_cast<std::size_t>(inequality)];
-    if (place.row >= 0) {
-      gradient += coefficient * rates_.row(place.row).transpose();
+    const Position& position = position_[static_cast<std::size_t>(inequality)];
+    if (position.row >= 0) {
+      gradient += coefficient * rates_.row(position.row).transpose();
     } else {
-      gradient[place.column] += coefficient;
+      gradient[position.column] += coefficient;
     }
   }
   return gradient;
@@ -197,12 +197,12 @@ Basis Tableau::basis() const {
   return basis;
 }
 
-void Tableau::name_places() {
-  place_.assign(static_cast<std::size_t>(set_.inequalities()), {});
+void Tableau::update_positions() {
+  position_.assign(static_cast<std::size_t>(set_.inequalities()), {});
   for (std::size_t i = 0; i < slack_.size(); ++i)
-    place_[static_cast<std::size_t>(slack_[i])].row = static_cast<int>(i);
+    position_[static_cast<std::size_t>(slack_[i])].row = static_cast<int>(i);
   for (std::size_t j = 0; j < active_.size(); ++j)
-    place_[static_cast<std::size_t>(active_[j])].column = static_cast<int>(j);
+    position_[static_cast<std::size_t>(active_[j])].column = static_cast<int>(j);
 }
 
 }  // namespace indet

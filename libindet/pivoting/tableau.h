@@ -12,9 +12,10 @@ namespace indet {
 ///
 ///   x_B = b + D x_N,   D = S_B S_N⁻¹,   b = x_B at the vertex
 ///
-/// Column j of D says how all slacks change along the edge on which active inequality j is left. Moving to
-/// the neighbouring vertex exchanges one inequality of N for one of B, which changes D by a matrix of rank
-/// one: (K − d) d multiplications. D is stored by rows, and rows that the exchange leaves alone are skipped.
+/// Column j of D says how all slacks change along the edge of the polytope on which active inequality j is
+/// left. Moving to the neighbouring vertex exchanges one inequality of N for one of B, which changes D by a
+/// matrix of rank one: (K − d) d multiplications. D is stored by rows, and rows that the exchange leaves
+/// alone are skipped.
 ///
 /// Weights of the columns, γ_j = 1 + ‖D_j‖², are the squared lengths of the edge directions in x; they are
 /// kept up to date if asked for.
@@ -51,21 +52,21 @@ class Tableau {
 
   const std::vector<int>& active() const { return active_; }  ///< d: column → inequality
   const std::vector<int>& slack() const { return slack_; }    ///< K − d: row → inequality
-  int row_of(int inequality) const { return place_[static_cast<std::size_t>(inequality)].row; }  ///< or −1
+  int row_of(int inequality) const { return position_[static_cast<std::size_t>(inequality)].row; }  ///< or −1
   int column_of(int inequality) const {
-    return place_[static_cast<std::size_t>(inequality)].column;
+    return position_[static_cast<std::size_t>(inequality)].column;
   }                                                            ///< or −1
   const Matrix& rates() const { return rates_; }               ///< D
   const Eigen::VectorXd& slacks() const { return slacks_; }    ///< b
   const Eigen::VectorXd& weights() const { return weights_; }  ///< γ; empty if not asked for
 
  private:
-  struct Place {
+  struct Position {
     int row = -1, column = -1;
   };
 
   void exchange(const std::vector<int>& rows, const std::vector<int>& columns);
-  void name_places();
+  void update_positions();
   void recompute_weights();
 
   const FeasibleSet& set_;
@@ -73,7 +74,7 @@ class Tableau {
   int weight_updates_ = 0;
   Eigen::VectorXd probe_;  ///< s = S u
   std::vector<int> active_, slack_;
-  std::vector<Place> place_;  ///< K
+  std::vector<Position> position_;  ///< K
   Matrix rates_;
   Eigen::VectorXd slacks_, weights_;
   Eigen::VectorXd column_, row_, product_;  ///< work space of pivot()

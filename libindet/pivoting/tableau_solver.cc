@@ -63,8 +63,8 @@ LpStatus TableauSolver::climb(const Objective& objective, std::int64_t& pivots) 
   int stalled = 0;
   for (;;) {
     const bool careful = stalled > kStalled;
-    const int column = careful ? choose_edge_by_number(tableau_, gradient, is_held_, options_.optimality)
-                               : choose_edge(tableau_, gradient, is_held_, rule_, options_.optimality);
+    const int column = careful ? choose_column_by_number(tableau_, gradient, is_held_, options_.optimality)
+                               : choose_column(tableau_, gradient, is_held_, rule_, options_.optimality);
     if (column < 0) {
       const bool is_sound = tableau_.error() <= kError;
       if (is_fresh && is_sound) return LpStatus::kOptimal;

@@ -6,9 +6,9 @@
 
 namespace indet {
 
-/// The paper's walk from extremal point to extremal point (Sec. II G), done on a dense tableau: the edge
-/// directions of a vertex follow from those of its neighbour by a change of rank one, instead of being
-/// built again. This is the primal simplex method in the coordinates of the null space.
+/// The paper's walk from extremal point to extremal point (Sec. II G), done on a dense tableau: the
+/// directions of the polytope's edges at a vertex follow from those of its neighbour by a change of rank one,
+/// instead of being built again. This is the primal simplex method in the coordinates of the null space.
 ///
 /// An objective starts from the vertex that it is given; the tableau goes there from where it is by one block
 /// exchange. After kStalled steps without gain it follows Bland's rule until it gains again, so it cannot

@@ -8,8 +8,8 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "libindet/polytope/blocks.h"
 #include "libindet/polytope/interior.h"
 
@@ -138,7 +138,7 @@ Vertex find_lightest_vertex(const EquilibriumProblem& problem, const InteriorSet
     normal_forces.emplace_back(k, -problem.edges[static_cast<std::size_t>(k)].R);
   LpSolver solver(set, Formulation::kDual, options);
   const Objective lightness = make_objective(set, normal_forces);
-  const LpAnswer answer = solver.maximise(lightness, walk_to_vertex(set, interior.z, lightness.along_z));
+  const LpAnswer answer = solver.maximise(lightness, purify_to_vertex(set, interior.z, lightness.along_z));
   polytope.pivots += answer.pivots;
   ++polytope.solves;
   if (answer.status != LpStatus::kOptimal)

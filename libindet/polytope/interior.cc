@@ -5,8 +5,8 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 
 namespace indet {
 namespace {
@@ -50,7 +50,7 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
 
   Eigen::VectorXd origin = Eigen::VectorXd::Zero(d + 1);
   origin[d] = lifted.offset.minCoeff();
-  const Basis start = walk_to_vertex(lifted, origin, height.along_z);
+  const Basis start = purify_to_vertex(lifted, origin, height.along_z);
   const LpAnswer answer = maximise_robustly(lifted, height, start, options);
   const bool solved = answer.status == LpStatus::kOptimal;
   result.pivots = answer.pivots;
@@ -83,7 +83,7 @@ RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options
   const FeasibleSet cone = truncated_recession_cone(set);
   Objective total;
   total.along_z = set.slope.colwise().sum().transpose();
-  const Basis start = walk_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z);
+  const Basis start = purify_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z);
   const LpAnswer answer = maximise_robustly(cone, total, start, options);
   if (answer.status != LpStatus::kOptimal)
     throw LibraryError("the linear program for a recession ray could not be solved");

@@ -12,7 +12,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
-#include "libindet/lp/walk.h"
+#include "libindet/lp/purification.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/polytope/interior.h"
 #include "libindet/range/certify.h"
@@ -100,7 +100,7 @@ void exclude_unbounded(const FeasibleSet& set, const SearchOptions& options, con
     cone_options.progress = [&](std::int64_t, std::int64_t total) { return options.progress(0, total); };
   }
   const Basis apex =
-      walk_to_vertex(cone, Eigen::VectorXd::Zero(cone.dim()), Eigen::VectorXd::Zero(cone.dim()));
+      purify_to_vertex(cone, Eigen::VectorXd::Zero(cone.dim()), Eigen::VectorXd::Zero(cone.dim()));
   Eigen::VectorXd cone_weight(weight.size() + 1);
   cone_weight << weight, 1;
   const SearchResult growth = search_extrema(cone, block.components, cone_weight, apex, cone_options);

@@ -2,32 +2,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "libindet/lp/feasible_set.h"
-#include "libindet/lp/lp_solver.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/pivoting/pivot_rule.h"
-#include "libindet/range/examiner.h"
-#include "libindet/range/method.h"
+#include "libindet/range/component.h"
 #include "libindet/range/paper_work.h"
+#include "libindet/range/search_options.h"
 
 namespace indet {
-
-struct SearchOptions {
-  Method method = Method::kLp;
-  Formulation formulation = Formulation::kDual;     ///< of kLp, and of the states of kPivotingPaper
-  PivotRule pivot_rule = PivotRule::kSteepestEdge;  ///< of kPivotingTableau
-  LpOptions lp;
-  int threads = 1;
-  /// Take the state of smallest `weight` on each optimal face, so that every method gives the same one; else
-  /// the vertex that the solver lands on.
-  bool canonical_states = true;
-  /// Called now and then with the numbers of objectives settled and asked for; false stops the search
-  /// (Interrupted).
-  std::function<bool(std::int64_t settled, std::int64_t total)> progress;
-};
 
 /// What was found about one objective.
 struct Extremum {
@@ -59,14 +42,11 @@ struct SearchResult {
 /// objective g, and a row without a negative entry proves the vertex optimal. Only those rows are computed
 /// that can change something, so this costs far less than the whole product.
 ///
-/// kPivotingPaper: each objective is walked to by itself, a minimum from `start`, the maximum from that
-/// minimum, and nothing is learned from other objectives. Canonical states are then found by linear programs.
+/// kPivotingPaper: each objective is walked to by itself (paper_walk.h). Canonical states are then found by
+/// linear programs.
 ///
-/// Objectives are worked on in rounds of fixed size, whose members start from what was known before the
-/// round: the result does not depend on the number of threads.
-///
-/// Extremal states: on the optimal face {x : x_k = 0 for all k with positive reduced cost} the state of
-/// smallest weight·x is taken, and among equals the smallest of a fixed generic functional.
+/// Objectives are worked on in rounds (search_rounds.h): the result does not depend on the number of threads.
+/// Extremal states: canonical_states.h.
 ///
 /// Preconditions: the set is full-dimensional; `start` is a vertex; weight > 0. Functionals that are
 /// unbounded over the set end as kUnbounded.

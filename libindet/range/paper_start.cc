@@ -1,7 +1,7 @@
 #include "libindet/range/paper_start.h"
 
 #include "libindet/base/tolerances.h"
-#include "libindet/lp/walk.h"
+#include "libindet/lp/purification.h"
 #include "libindet/pivoting/interior_start.h"
 #include "libindet/polytope/interior.h"
 
@@ -16,7 +16,7 @@ Basis first_extremal_point(const SceneForces& simulated, const ForcePolytope& po
   work.sliding_left += start.left;
   const Eigen::VectorXd interior =
       start.end == InteriorEnd::kFound ? start.z : find_interior_point(block.set, options).z;
-  return walk_to_vertex(block.set, interior, Eigen::VectorXd::Zero(block.set.dim()));
+  return purify_to_vertex(block.set, interior, Eigen::VectorXd::Zero(block.set.dim()));
 }
 
 }  // namespace indet

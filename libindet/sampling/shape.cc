@@ -10,8 +10,8 @@
 
 #include "libindet/base/error.h"
 #include "libindet/lp/lp_solver.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "libindet/sampling/random_streams.h"
 #include "libindet/statistics/bootstrap.h"
 
@@ -43,7 +43,7 @@ class Support {
       objective.along_z = direction.segment(block.first_column, block.columns);
       if (objective.along_z.norm() == 0) objective.along_z[0] = 1;  // any point will do
       const Basis start =
-          walk_to_vertex(sets_[b], interior_.segment(block.first_column, block.columns), objective.along_z);
+          purify_to_vertex(sets_[b], interior_.segment(block.first_column, block.columns), objective.along_z);
       const LpAnswer answer = solvers_[b]->maximise(objective, start);
       if (answer.status != LpStatus::kOptimal) return std::nullopt;
       z.segment(block.first_column, block.columns) = compute_vertex(sets_[b], answer.basis).z;

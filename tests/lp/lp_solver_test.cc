@@ -8,8 +8,8 @@
 
 #include "libindet/base/random.h"
 #include "libindet/lp/glpk_problem.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "tests/support/maximiser_checks.h"
 #include "tests/support/objectives.h"
 #include "tests/support/oracle.h"
@@ -47,7 +47,7 @@ TEST_P(Formulations, FindTheBestCornerWarmAndCold) {
       const LpAnswer cold = solver.maximise(objective, {});
       ASSERT_EQ(cold.status, LpStatus::kOptimal);
       EXPECT_NEAR(value_of(set, objective, cold), best, 1e-9);
-      const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+      const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
       for (const Basis& from : {start, last, cold.basis}) {
         if (from.empty()) continue;
         const LpAnswer warm = solver.maximise(objective, from);
@@ -69,7 +69,7 @@ TEST_P(Formulations, GoOnFromTheLastVertex) {
     const FeasibleSet set = test::random_polytope(d, 6, repeat % 2 == 1, random);
     const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
     LpSolver solver(set, GetParam());
-    Basis last = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    Basis last = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (int goal = 0; goal < 20; ++goal) {
       const Objective objective = random_objective(set, random);
       const std::vector<int> held = goal % 3 == 2 ? std::vector<int>{last.front()} : std::vector<int>{};
@@ -85,7 +85,7 @@ TEST_P(Formulations, GoOnFromTheLastVertex) {
 TEST_P(Formulations, AnotherStartForgetsWhatWasAskedBefore) {
   Random random(42);
   const FeasibleSet set = test::random_polytope(5, 12, true, random);
-  const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
+  const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
   LpSolver used(set, GetParam());
   for (int repeat = 0; repeat < 20; ++repeat) {
     const Objective objective = random_objective(set, random);

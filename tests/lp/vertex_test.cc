@@ -6,7 +6,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
-#include "libindet/lp/walk.h"
+#include "libindet/lp/purification.h"
 #include "tests/support/sets.h"
 
 namespace indet {
@@ -22,7 +22,7 @@ TEST(Walk, EndsAtAFeasibleVertexAndNeverLosesTheGuide) {
     for (double& g : guide) g = random.normal();
     const Eigen::VectorXd from = Eigen::VectorXd::Constant(d, 0.01);
     for (const Eigen::VectorXd& along : {guide, Eigen::VectorXd(Eigen::VectorXd::Zero(d))}) {
-      const Basis basis = walk_to_vertex(set, from, along);
+      const Basis basis = purify_to_vertex(set, from, along);
       ASSERT_EQ(static_cast<int>(basis.size()), d);
       EXPECT_TRUE(std::is_sorted(basis.begin(), basis.end()));
       const Vertex vertex = compute_vertex(set, basis);
@@ -36,14 +36,14 @@ TEST(Walk, FindsTheVertexOfAnUnboundedSet) {
   FeasibleSet set;
   set.slope = Eigen::Matrix2d::Identity();
   set.offset = Eigen::Vector2d::Zero();
-  EXPECT_EQ(walk_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), (Basis{0, 1}));
+  EXPECT_EQ(purify_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), (Basis{0, 1}));
 }
 
 TEST(Walk, RefusesASetWithALine) {
   FeasibleSet set;
   set.slope = Eigen::RowVector2d(1, 0);
   set.offset = Eigen::VectorXd::Zero(1);
-  EXPECT_THROW(walk_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), LibraryError);
+  EXPECT_THROW(purify_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), LibraryError);
 }
 
 TEST(Vertex, SatisfiesItsInequalitiesAndItsMultipliersReproduceTheObjective) {
@@ -51,7 +51,7 @@ TEST(Vertex, SatisfiesItsInequalitiesAndItsMultipliersReproduceTheObjective) {
   for (int repeat = 0; repeat < 40; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(5));
     const FeasibleSet set = test::random_polytope(d, 6, repeat % 2 == 1, random);
-    const Basis basis = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Basis basis = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     const Vertex vertex = compute_vertex(set, basis);
     for (const int k : basis) {
       EXPECT_EQ(vertex.x[k], 0);
@@ -64,12 +64,13 @@ TEST(Vertex, SatisfiesItsInequalitiesAndItsMultipliersReproduceTheObjective) {
     EXPECT_LE((set.slope(basis, Eigen::all).transpose() * costs + objective.along_z).norm(), 1e-12);
     for (int k = 0; k < d; ++k) {
       // Leaving inequality k by one unit loses its multiplier.
-      EXPECT_NEAR(objective.along_z.dot(vertex.edge(k)), -costs[k], 1e-12);
-      const double length = edge_length(set, vertex, k);
+      EXPECT_NEAR(objective.along_z.dot(vertex.edge_direction(k)), -costs[k], 1e-12);
+      const double length = polytope_edge_length(set, vertex, k);
       ASSERT_TRUE(std::isfinite(length));
-      const Eigen::VectorXd end = set.offset + set.slope * (vertex.z + length * vertex.edge(k));
+      const Eigen::VectorXd end = set.offset + set.slope * (vertex.z + length * vertex.edge_direction(k));
       EXPECT_GE(end.minCoeff(), -1e-10);
-      const Eigen::VectorXd beyond = set.offset + set.slope * (vertex.z + (length + 1e-3) * vertex.edge(k));
+      const Eigen::VectorXd beyond =
+          set.offset + set.slope * (vertex.z + (length + 1e-3) * vertex.edge_direction(k));
       EXPECT_LT(beyond.minCoeff(), -1e-6);
     }
   }
@@ -79,7 +80,8 @@ TEST(Vertex, EdgeOfAnUnboundedSetHasNoEnd) {
   FeasibleSet set;
   set.slope = Eigen::Matrix2d::Identity();
   set.offset = Eigen::Vector2d::Zero();
-  EXPECT_EQ(edge_length(set, compute_vertex(set, {0, 1}), 0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(polytope_edge_length(set, compute_vertex(set, {0, 1}), 0),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(Vertex, DependentRowsAreRefused) {

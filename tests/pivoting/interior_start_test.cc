@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "libindet/base/random.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "tests/support/sets.h"
 
 namespace indet {
@@ -19,7 +19,7 @@ TEST(InteriorStart, LeavesEveryConstraintOfAVertex) {
   for (int repeat = 0; repeat < 40; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(6));
     const FeasibleSet set = test::random_polytope(d, 6, false, random);
-    const Basis corner = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Basis corner = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     const InteriorStart start = leave_sliding_contacts(set, compute_vertex(set, corner).x, kEpsilon);
     ASSERT_EQ(start.end, InteriorEnd::kFound);
     EXPECT_EQ(start.sliding, d);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "libindet/base/random.h"
-#include "libindet/lp/walk.h"
+#include "libindet/lp/purification.h"
 #include "tests/support/oracle.h"
 #include "tests/support/sets.h"
 
@@ -37,8 +37,8 @@ TEST(NeighbourSearch, ClimbsToTheBestCornerOfSimplePolytopes) {
     std::vector<std::pair<int, double>> on_edges;
     for (int k = 0; k < set.inequalities(); ++k) on_edges.emplace_back(k, random.normal());
     const Objective objective = make_objective(set, on_edges);
-    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(d));
-    const Walk walk = NeighbourSearch(set, kEpsilon).walk(objective, start);
+    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(d));
+    const NeighbourWalk walk = NeighbourSearch(set, kEpsilon).walk(objective, start);
     EXPECT_EQ(walk.end, WalkEnd::kNoneBetter);
     EXPECT_EQ(walk.neighbours, d * (walk.steps + 1)) << "all neighbours of every point are looked at";
     EXPECT_EQ(walk.unexpected, 0);
@@ -51,7 +51,8 @@ TEST(NeighbourSearch, GoesToTheBestOfTheNeighbours) {
   // From the origin both axes lead up; the far corner of the longer one is better.
   FeasibleSet set = square(Eigen::MatrixXd(0, 2), Eigen::VectorXd(0));
   set.offset[3] = 5;
-  const Walk walk = NeighbourSearch(set, kEpsilon).walk(make_objective(set, {{0, 1.0}, {1, 1.0}}), {0, 1});
+  const NeighbourWalk walk =
+      NeighbourSearch(set, kEpsilon).walk(make_objective(set, {{0, 1.0}, {1, 1.0}}), {0, 1});
   EXPECT_EQ(walk.basis, (Basis{2, 3}));
   EXPECT_EQ(walk.steps, 2);
 }
@@ -60,10 +61,11 @@ TEST(NeighbourSearch, ReportsPointsWithMoreActiveConstraintsThanDimensions) {
   // The line z0 + z1 = 0 touches the square in the corner from which the walk starts.
   const FeasibleSet touched = square(Eigen::RowVector2d(1, 1), Eigen::VectorXd::Zero(1));
   const Objective up = make_objective(touched, {{0, 1.0}});
-  const Walk passed = NeighbourSearch(touched, kEpsilon).walk(up, {0, 1});
+  const NeighbourWalk passed = NeighbourSearch(touched, kEpsilon).walk(up, {0, 1});
   EXPECT_EQ(passed.end, WalkEnd::kNoneBetter);
   EXPECT_EQ(passed.unexpected, 1);
-  const Walk stays = NeighbourSearch(touched, kEpsilon).walk(make_objective(touched, {{4, -1.0}}), {0, 1});
+  const NeighbourWalk stays =
+      NeighbourSearch(touched, kEpsilon).walk(make_objective(touched, {{4, -1.0}}), {0, 1});
   EXPECT_EQ(stays.end, WalkEnd::kMoreActive);
   EXPECT_EQ(stays.steps, 0);
 }
@@ -79,7 +81,7 @@ TEST(NeighbourSearch, IsCaughtInACornerAsThePaperIs) {
   const Objective objective = make_objective(set, {{3, -1.0}, {0, -1.0}});
   int caught = 0;
   oracle::for_each_choice(4, 3, [&](const std::vector<int>& start) {
-    const Walk walk = NeighbourSearch(set, kEpsilon).walk(objective, start);
+    const NeighbourWalk walk = NeighbourSearch(set, kEpsilon).walk(objective, start);
     const double value = objective.along_z.dot(compute_vertex(set, walk.basis).z);
     if (walk.end == WalkEnd::kNoneBetter) {
       EXPECT_NEAR(value, best_corner(set, objective), 1e-9);
@@ -94,7 +96,7 @@ TEST(NeighbourSearch, ReportsEdgesWithoutEnd) {
   set.slope = Eigen::Matrix2d::Identity();
   set.offset = Eigen::Vector2d::Zero();
   const NeighbourSearch search(set, kEpsilon);
-  EXPECT_EQ(search.walk(make_objective(set, {{0, 1.0}}), {0, 1}).end, WalkEnd::kEdgeWithoutEnd);
+  EXPECT_EQ(search.walk(make_objective(set, {{0, 1.0}}), {0, 1}).end, WalkEnd::kPolytopeEdgeWithoutEnd);
   EXPECT_EQ(search.walk(make_objective(set, {{0, -1.0}}), {0, 1}).end, WalkEnd::kNoneBetter);
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "libindet/base/random.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "tests/support/maximiser_checks.h"
 #include "tests/support/objectives.h"
 #include "tests/support/oracle.h"
@@ -36,7 +36,7 @@ TEST_P(Rules, FindTheBestCorner) {
         test::random_polytope(d, static_cast<int>(random.below(7)), repeat % 2 == 1, random);
     const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
     TableauSolver solver(set, GetParam());
-    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (int goal = 0; goal < 5; ++goal) {
       SCOPED_TRACE(std::to_string(repeat) + ", " + std::to_string(goal));
       const Objective objective = random_objective(set, random);
@@ -80,7 +80,7 @@ TEST_P(Rules, GiveUpAtTheirLimit) {
   const FeasibleSet set = test::random_polytope(6, 20, false, random);
   LpOptions options;
   options.iteration_limit = 1;
-  const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(6), -Eigen::VectorXd::Ones(6));
+  const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(6), -Eigen::VectorXd::Ones(6));
   const Objective objective =
       make_objective(set, {{0, 1.0}, {1, 1.0}, {2, 1.0}, {3, 1.0}, {4, 1.0}, {5, 1.0}});
   const LpAnswer answer = TableauSolver(set, GetParam(), options).maximise(objective, start);

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "libindet/base/random.h"
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "tests/support/sets.h"
 
 namespace indet {
@@ -16,7 +16,7 @@ namespace {
 Basis first_vertex(const FeasibleSet& set, Random& random) {
   Eigen::VectorXd guide(set.dim());
   for (double& value : guide) value = random.normal();
-  return walk_to_vertex(set, Eigen::VectorXd::Zero(set.dim()), guide);
+  return purify_to_vertex(set, Eigen::VectorXd::Zero(set.dim()), guide);
 }
 
 /// Every entry against its definition.
@@ -96,7 +96,7 @@ TEST(Tableau, GradientIsTheChangeOfTheObjectiveAlongEdges) {
   for (int j = 0; j < set.dim(); ++j) {
     const auto place =
         std::find(vertex.basis.begin(), vertex.basis.end(), tableau.active()[static_cast<std::size_t>(j)]);
-    const Eigen::VectorXd edge = vertex.edge(static_cast<int>(place - vertex.basis.begin()));
+    const Eigen::VectorXd edge = vertex.edge_direction(static_cast<int>(place - vertex.basis.begin()));
     EXPECT_NEAR(gradient[j], objective.along_z.dot(edge), 1e-11);
   }
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libindet/base/random.h"
-#include "libindet/lp/walk.h"
+#include "libindet/lp/purification.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
 #include "tests/support/sets.h"
@@ -33,7 +33,7 @@ TEST(ExtremalSearch, FindsTheExtremaOfAllVertices) {
     const Eigen::VectorXd weight = Eigen::VectorXd::Ones(set.inequalities());
     const auto corners = oracle::enumerate_corners(set.slope, set.offset);
     const Eigen::MatrixXd x = (corners.vertices * set.slope.transpose()).rowwise() + set.offset.transpose();
-    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
       SCOPED_TRACE(std::to_string(repeat) + " " + to_string(formulation));
       SearchOptions options;
@@ -70,7 +70,7 @@ TEST(ExtremalSearch, LeavesOutWhatIsNotWanted) {
   std::vector<Component> components = components_of(set);
   components[0].minimise = false;
   components[1].maximise = false;
-  const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3));
+  const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3));
   const SearchResult found =
       search_extrema(set, components, Eigen::VectorXd::Ones(set.inequalities()), start, {});
   EXPECT_EQ(found.minimum[0].status, Extremum::Status::kOpen);

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
-#include "libindet/lp/walk.h"
 #include "tests/support/objectives.h"
 #include "tests/support/oracle.h"
 #include "tests/support/sets.h"
@@ -18,7 +18,7 @@ void expect_held_faces_are_kept_and_released(const MakeMaximiser& make, Random& 
     const int d = 2 + static_cast<int>(random.below(3));
     const FeasibleSet set = random_polytope(d, 5, repeat % 2 == 1, random);
     const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
-    const Basis start = walk_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     const Vertex vertex = compute_vertex(set, start);
     std::vector<int> held;
     for (int k = 0; k < set.inequalities(); ++k) {

@@ -1,4 +1,4 @@
-#include "libindet/range/examiner.h"
+#include "libindet/range/optimality_checker.h"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ FeasibleSet pyramid() {
   return set;
 }
 
-TEST(Examiner, EdgesOfAFaceAtADegenerateVertex) {
+TEST(OptimalityChecker, EdgesOfAFaceAtADegenerateVertex) {
   const FeasibleSet set = pyramid();
   const std::vector<Component> components = {{{{4, 1.0}}}};
   const Eigen::VectorXd weight = Eigen::VectorXd::Ones(5);
-  const Examiner examiner(set, components, weight, true);
+  const OptimalityChecker checker(set, components, weight, true);
   struct Case {
     Basis basis;
     std::vector<int> held;
@@ -34,9 +34,9 @@ TEST(Examiner, EdgesOfAFaceAtADegenerateVertex) {
   for (const Case& c :
        {Case{{0, 1, 2}, {0, 1}, false}, Case{{0, 2, 3}, {0, 1}, false}, Case{{1, 2, 3}, {0, 1}, false},
         Case{{0, 1, 2}, {0, 2}, true}, Case{{0, 1, 2}, {1, 2}, true}, Case{{0, 2, 3}, {0}, true}}) {
-    Visit visit = examiner.visit(c.basis);
-    EXPECT_NEAR(visit.vertex.z.norm(), 0, 1e-15);
-    EXPECT_EQ(examiner.has_free_edge(visit, c.held), c.has_edge)
+    CheckedVertex checked = checker.recompute(c.basis);
+    EXPECT_NEAR(checked.vertex.z.norm(), 0, 1e-15);
+    EXPECT_EQ(checker.has_free_polytope_edge(checked, c.held), c.has_edge)
         << c.basis[0] << c.basis[1] << c.basis[2] << ", " << c.held.size();
   }
 }

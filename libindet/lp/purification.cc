@@ -1,4 +1,4 @@
-#include "libindet/lp/walk.h"
+#include "libindet/lp/purification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& free, const Eigen::VectorXd& row)
 
 }  // namespace
 
-Basis walk_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const Eigen::VectorXd& guide) {
+Basis purify_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const Eigen::VectorXd& guide) {
   const int d = set.dim();
   Basis basis;
   std::vector<bool> active(static_cast<std::size_t>(set.inequalities()), false);

@@ -4,33 +4,26 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "libindet/lp/feasible_set.h"
 #include "libindet/lp/vertex.h"
+#include "libindet/range/component.h"
 
 namespace indet {
 
-/// A linear functional e·x whose minimum and maximum are wanted: a force component of one contact.
-struct Component {
-  std::vector<std::pair<int, double>> on_edges;  ///< (index into x, coefficient)
-  bool minimise = true;
-  bool maximise = true;
-};
-
 /// A vertex with everything that the search asks of it.
-struct Visit {
+struct CheckedVertex {
   Vertex vertex;
   Eigen::VectorXd values;  ///< of all components
   double weight = 0;
-  Eigen::MatrixXd secondary;  ///< 2 × d: reduced costs of minimising weight·x, and the generic functional
+  Eigen::MatrixXd state_costs;  ///< 2 × d: reduced costs of minimising weight·x, and the generic functional
   std::vector<std::optional<bool>>
-      has_length;  ///< d: whether an edge has positive length, where it was asked
+      has_length;  ///< d: whether that edge of the polytope has positive length, where it was asked
 };
 
-/// What one visited vertex proves about one objective.
-struct Finding {
+/// What one vertex proves about one objective.
+struct ObjectiveVerdict {
   std::int64_t objective = 0;
   double value = 0;        ///< signed so that larger is better
   bool optimal = false;    ///< no wrong-signed reduced cost
@@ -45,11 +38,11 @@ struct Finding {
 ///
 /// Canonical states are those of smallest weight·x on the optimal face, and among equals of the smallest
 /// value of a generic functional with fixed weights (docs/decisions/canonical-states.md).
-class Examiner {
+class OptimalityChecker {
  public:
-  /// `set`, `components` and `weight` must outlive the examiner.
-  Examiner(const FeasibleSet& set, const std::vector<Component>& components, const Eigen::VectorXd& weight,
-           bool canonical_states);
+  /// `set`, `components` and `weight` must outlive the checker.
+  OptimalityChecker(const FeasibleSet& set, const std::vector<Component>& components,
+                    const Eigen::VectorXd& weight, bool canonical_states);
 
   std::int64_t objectives() const { return 2 * rows_.rows(); }
   static double sign_of(std::int64_t objective) { return objective % 2 == 0 ? -1.0 : 1.0; }
@@ -60,20 +53,21 @@ class Examiner {
   const Objective& generic() const { return generic_; }
 
   /// Recomputes the vertex from its basis. Throws LibraryError if that is singular.
-  Visit visit(const Basis& basis) const;
+  CheckedVertex recompute(const Basis& basis) const;
 
   /// Judges a vertex for objectives in ascending order: with the d active inequalities N, λ = −g S_N⁻¹ are
   /// the reduced costs of objective g, and λ ≥ 0 proves the vertex optimal.
-  std::vector<Finding> judge(std::span<const std::int64_t> objectives, Visit& visit) const;
+  std::vector<ObjectiveVerdict> judge(std::span<const std::int64_t> objectives, CheckedVertex& checked) const;
 
-  /// True if some edge of the face {x_k = 0, k ∈ held} has positive length, so that the face is more than a
-  /// point.
-  bool has_free_edge(Visit& visit, const std::vector<int>& held) const;
+  /// True if some edge of the polytope in its face {x_k = 0, k ∈ held} has positive length, so that the face
+  /// is more than a point.
+  bool has_free_polytope_edge(CheckedVertex& checked, const std::vector<int>& held) const;
 
  private:
-  Finding judge_one(std::int64_t objective, Visit& visit, const Eigen::VectorXd& costs) const;
-  bool edge_has_length(Visit& visit, int k) const;
-  bool keeps_to(const Visit& visit, int k, const std::vector<int>& held) const;
+  ObjectiveVerdict judge_one(std::int64_t objective, CheckedVertex& checked,
+                             const Eigen::VectorXd& costs) const;
+  bool polytope_edge_has_length(CheckedVertex& checked, int k) const;
+  bool keeps_to(const CheckedVertex& checked, int k, const std::vector<int>& held) const;
 
   const FeasibleSet& set_;
   const std::vector<Component>& components_;

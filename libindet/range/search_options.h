@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "libindet/lp/lp_solver.h"
+#include "libindet/pivoting/pivot_rule.h"
+#include "libindet/range/method.h"
+
+namespace indet {
+
+struct SearchOptions {
+  Method method = Method::kLp;
+  Formulation formulation = Formulation::kDual;     ///< of kLp, and of the states of kPivotingPaper
+  PivotRule pivot_rule = PivotRule::kSteepestEdge;  ///< of kPivotingTableau
+  LpOptions lp;
+  int threads = 1;
+  /// Take the state of smallest `weight` on each optimal face, so that every method gives the same one; else
+  /// the vertex that the solver lands on.
+  bool canonical_states = true;
+  /// Called now and then with the numbers of objectives settled and asked for; false stops the search
+  /// (Interrupted).
+  std::function<bool(std::int64_t settled, std::int64_t total)> progress;
+};
+
+}  // namespace indet
