@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "libindet/base/tolerances.h"
 #include "libindet/nullspace/sparse_qr.h"
@@ -53,8 +54,8 @@ struct StateBound {
 
 class Encloser {
  public:
-  Encloser(const Packing& packing, const ForcePolytope& polytope, ForceRanges& ranges)
-      : packing_(packing), polytope_(polytope), contacts_(polytope.contacts), ranges_(ranges) {
+  Encloser(const Packing& packing, const ForcePolytope& polytope, const Extrema& extrema)
+      : packing_(packing), polytope_(polytope), contacts_(polytope.contacts), extrema_(extrema) {
     first_.assign(static_cast<std::size_t>(packing.contact_count()), -1);
     for (int k = contacts_.unknowns() - 1; k >= 0; --k)
       first_[static_cast<std::size_t>(contacts_.edges[static_cast<std::size_t>(k)].contact.value())] = k;
@@ -62,18 +63,20 @@ class Encloser {
     bound_states();
   }
 
-  bool run(std::span<const OptimalBasis> optima) {
-    sort_bases(optima);
+  Enclosures run() {
+    sort_bases(extrema_.proofs);
     bound_strengths();
     const Eigen::Index count = packing_.contact_count();
-    ranges_.sensitivity.setConstant(count, 4, ForceRanges::kNaN);
+    for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
+      table->setConstant(count, 4, std::numeric_limits<double>::quiet_NaN());
     for (Eigen::Index i = 0; i < count; ++i) {
       for (int column = 0; column < 4; ++column) {
-        if (ranges_.vertex(i, column) >= 0) enclose(i, column);
+        if (extrema_.vertex(i, column) >= 0) enclose(i, column);
       }
     }
     const bool limited = polytope_.status != PolytopeStatus::kBounded || std::isfinite(total_);
-    return inside_ && limited;
+    enclosures_.proven = !polytope_.doubtful && inside_ && limited;
+    return std::move(enclosures_);
   }
 
  private:
@@ -217,9 +220,9 @@ class Encloser {
       for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) length[it.row()] += 1;
     }
     if (length.size() > 0) row_length_ = length.maxCoeff();
-    for (Eigen::Index row = 0; row < ranges_.states.rows(); ++row) {
+    for (Eigen::Index row = 0; row < extrema_.states.rows(); ++row) {
       StateBound bound;
-      bound.u = unknowns_of(ranges_.states.row(row).transpose() / contacts_.force_unit);
+      bound.u = unknowns_of(extrema_.states.row(row).transpose() / contacts_.force_unit);
       states_.push_back(std::move(bound));
     }
     centre_.u = unknowns_of(contact_state(polytope_, polytope_.interior));
@@ -240,7 +243,7 @@ class Encloser {
     }
   }
 
-  void sort_bases(std::span<const OptimalBasis> optima) {
+  void sort_bases(const std::vector<OptimalBasis>& optima) {
     basis_of_.setConstant(packing_.contact_count(), 4, -1);
     std::map<std::pair<std::size_t, Basis>, int> numbers;
     for (const OptimalBasis& optimum : optima) {
@@ -351,7 +354,7 @@ class Encloser {
     for (int k = 0; k < contacts_.unknowns(); ++k) {
       const Edge& edge = contacts_.edges[static_cast<std::size_t>(k)];
       const Eigen::Index i = edge.contact.value();
-      if (ranges_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
+      if (extrema_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
       const Functional f = functional(i, false, 1);
       const Eigen::VectorXd y_of_maximum = multipliers(f, basis_of_(i, kMaxR));
       const double R = load_bound(y_of_maximum) + worst_excess(f, y_of_maximum) * total_;
@@ -403,8 +406,8 @@ class Encloser {
       const Contact& contact = packing_[ContactId(i)];
       Vector2 relative = motion.segment<2>(2 * contact.a.value());
       if (!contact.b.is_wall()) relative -= motion.segment<2>(2 * contact.b.disk_id().value());
-      const double R = ranges_.states(state, 2 * i);
-      const double T = ranges_.states(state, 2 * i + 1);
+      const double R = extrema_.states(state, 2 * i);
+      const double T = extrema_.states(state, 2 * i + 1);
       sum += std::abs(relative.dot(T * contact.normal - R * contact.tangent()));
     }
     return sum;
@@ -412,14 +415,14 @@ class Encloser {
 
   void enclose(Eigen::Index i, int column) {
     const double sign = column == kMaxR || column == kMaxT ? 1 : -1;
-    const Eigen::Index row = ranges_.vertex(i, column);
+    const Eigen::Index row = extrema_.vertex(i, column);
     const StateBound& state = states_[static_cast<std::size_t>(row)];
-    const double stored = ranges_.states(row, 2 * i + (column >= kMinT ? 1 : 0));
+    const double stored = extrema_.states(row, 2 * i + (column >= kMinT ? 1 : 0));
     double inner = 0;
     double outer = 0;
     const Functional f = functional(i, column >= kMinT, sign);
     if (f.on_edges.empty()) {  // closed throughout F: exactly 0
-      ranges_.sensitivity(i, column) = 0;
+      enclosures_.sensitivity(i, column) = 0;
     } else {
       const Eigen::VectorXd y = multipliers(f, basis_of_(i, column));
       outer = from_above(f, y);
@@ -432,7 +435,7 @@ class Encloser {
         }
         inner = std::max(inner, -from_above(opposite, -y));
       }
-      ranges_.sensitivity(i, column) = sensitivity_of(y, row);
+      enclosures_.sensitivity(i, column) = sensitivity_of(y, row);
     }
     const double unit = contacts_.force_unit;
     const auto widened = [&](double bound, double direction) {
@@ -441,14 +444,15 @@ class Encloser {
     };
     const double low = sign > 0 ? inner : -outer;
     const double high = sign > 0 ? outer : -inner;
-    ranges_.lower(i, column) = std::min(stored, widened(low, -1));
-    ranges_.upper(i, column) = std::max(stored, widened(high, 1));
+    enclosures_.lower(i, column) = std::min(stored, widened(low, -1));
+    enclosures_.upper(i, column) = std::max(stored, widened(high, 1));
   }
 
   const Packing& packing_;
   const ForcePolytope& polytope_;
   const ContactMatrix& contacts_;
-  ForceRanges& ranges_;
+  const Extrema& extrema_;
+  Enclosures enclosures_;
   std::vector<int> first_;                   ///< of each contact its first unknown, −1 if it is open
   std::vector<int> rows_;                    ///< independent equations
   Eigen::SparseMatrix<double> matrix_;       ///< A on these rows
@@ -468,9 +472,13 @@ class Encloser {
 
 }  // namespace
 
-bool enclose_values(const Packing& packing, const ForcePolytope& polytope,
-                    std::span<const OptimalBasis> optima, ForceRanges& ranges) {
-  return Encloser(packing, polytope, ranges).run(optima);
+Enclosures enclose_values(const Packing& packing, const ForcePolytope& polytope, const Extrema& extrema) {
+  if (polytope.status != PolytopeStatus::kEmpty) return Encloser(packing, polytope, extrema).run();
+  Enclosures none;
+  for (auto* table : {&none.lower, &none.upper, &none.sensitivity})
+    table->setConstant(packing.contact_count(), 4, std::numeric_limits<double>::quiet_NaN());
+  none.proven = !polytope.doubtful;
+  return none;
 }
 
 }  // namespace indet
