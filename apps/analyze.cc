@@ -16,6 +16,7 @@
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
 #include "apps/paper_work.h"
+#include "apps/ranges_json.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
@@ -74,13 +75,6 @@ Firmness firmness(const ForceRanges& ranges) {
   return result;
 }
 
-/// JSON has no inf; null would hide it.
-nlohmann::json number(double value) {
-  if (std::isfinite(value)) return value;
-  if (std::isnan(value)) return nullptr;
-  return value > 0 ? "inf" : "-inf";
-}
-
 struct MovingDisk {
   int index = 0;
   Vector3 motion;
@@ -104,62 +98,37 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
   const Statistics delta_T = statistics(ranges.delta_T);
   const Statistics d_R = statistics(ranges.d_R);
   const Statistics d_T = statistics(ranges.d_T);
-  nlohmann::json json = {{"output", output},
-                         {"status", to_string(ranges.status)},
-                         {"disks", packing.disk_count()},
-                         {"contacts", packing.contact_count()},
-                         {"unknowns", ranges.unknowns},
-                         {"equations", ranges.equations},
-                         {"rank", ranges.rank},
-                         {"nullity", ranges.nullity},
-                         {"rank_gap", number(ranges.rank_gap)},
-                         {"rank_ambiguous", ranges.rank_ambiguous},
-                         {"doubtful", ranges.doubtful},
-                         {"dim", ranges.dim},
-                         {"expected_dim", 2 * packing.contact_count() - 3 * packing.disk_count()},
-                         {"blocks", ranges.blocks},
-                         {"sliding", ranges.sliding},
-                         {"non_transmitting", ranges.non_transmitting},
-                         {"method", to_string(ranges.method)},
-                         {"formulation", ranges.formulation},
-                         {"requested", ranges.requested},
-                         {"objectives", ranges.objectives},
-                         {"determined", ranges.determined},
-                         {"solves", ranges.solves},
-                         {"pivots", ranges.pivots},
-                         {"certified", ranges.certified},
-                         {"unbounded", ranges.unbounded},
-                         {"imprecise", ranges.imprecise},
-                         {"failed", ranges.failed},
-                         {"unique", ranges.unique.cast<int>().sum()},
-                         {"states", ranges.states.rows()},
-                         {"worst_primal_residual", number(ranges.worst_primal_residual)},
-                         {"worst_dual_residual", number(ranges.worst_dual_residual)},
-                         {"widest_enclosure", number(firmness(ranges).widest_enclosure)},
-                         {"sensitivity", number(firmness(ranges).sensitivity)},
-                         {"force_unit", ranges.force_unit},
-                         {"mean_delta_R", number(delta_R.mean)},
-                         {"max_delta_R", number(delta_R.max)},
-                         {"mean_delta_T", number(delta_T.mean)},
-                         {"max_delta_T", number(delta_T.max)},
-                         {"mean_d_R", number(d_R.mean)},
-                         {"max_d_R", number(d_R.max)},
-                         {"mean_d_T", number(d_T.mean)},
-                         {"max_d_T", number(d_T.max)},
-                         {"seconds", ranges.seconds}};
+  nlohmann::json json = summary_to_json(ranges);
+  json.update({{"output", output},
+               {"disks", packing.disk_count()},
+               {"contacts", packing.contact_count()},
+               {"expected_dim", 2 * packing.contact_count() - 3 * packing.disk_count()},
+               {"unique", ranges.unique.cast<int>().sum()},
+               {"states", ranges.states.rows()},
+               {"widest_enclosure", json_number(firmness(ranges).widest_enclosure)},
+               {"sensitivity", json_number(firmness(ranges).sensitivity)},
+               {"mean_delta_R", json_number(delta_R.mean)},
+               {"max_delta_R", json_number(delta_R.max)},
+               {"mean_delta_T", json_number(delta_T.mean)},
+               {"max_delta_T", json_number(delta_T.max)},
+               {"mean_d_R", json_number(d_R.mean)},
+               {"max_d_R", json_number(d_R.max)},
+               {"mean_d_T", json_number(d_T.mean)},
+               {"max_d_T", json_number(d_T.max)},
+               {"seconds", ranges.seconds}});
   if (ranges.choice == ContactChoice::Kind::kSample) {
     json["sample"] = {{"seed", ranges.sample_seed}, {"confidence", kConfidence}};
     for (const auto& [name, estimate] :
          {std::pair("delta_R", ranges.sample_R), {"delta_T", ranges.sample_T}}) {
-      json["sample"][name] = {{"mean", number(estimate.mean)},
-                              {"low", number(estimate.low)},
-                              {"high", number(estimate.high)},
-                              {"band", number(estimate.band)}};
+      json["sample"][name] = {{"mean", json_number(estimate.mean)},
+                              {"low", json_number(estimate.low)},
+                              {"high", json_number(estimate.high)},
+                              {"band", json_number(estimate.band)}};
     }
   }
   if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges.paper);
   if (ranges.largest_norm >= 0)
-    json["largest_norm"] = number(ranges.norm[ranges.largest_norm] / ranges.force_unit);
+    json["largest_norm"] = json_number(ranges.norm[ranges.largest_norm] / ranges.force_unit);
   for (const MovingDisk& disk : moving_disks(ranges)) {
     json["moving_disks"].push_back({{"index", disk.index},
                                     {"id", packing[DiskId(disk.index)].id},
@@ -279,14 +248,15 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
 }
 
 /// --accuracy exact: every result again in rational arithmetic.
-void prove(const Packing& packing, const Context& context, ForceRanges& ranges) {
+ForceRanges prove(const Packing& packing, const Context& context, const ForceRanges& ranges) {
   const auto start = std::chrono::steady_clock::now();
   ExactCheckOptions options;
   options.threads = context.thread_count();
   options.progress = context.progress();
-  adopt_exact(packing, check_exactly(packing, ranges, options), ranges);
-  ranges.seconds["exact arithmetic"] =
+  ForceRanges proven = adopt_exact(packing, check_exactly(packing, ranges, options), ranges);
+  proven.seconds["exact arithmetic"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return proven;
 }
 
 int run(const Options& options, const Context& context) {
@@ -297,7 +267,7 @@ int run(const Options& options, const Context& context) {
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
     throw UsageError("--formulation is of linear programs; --method pivoting-tableau solves none");
   ForceRanges ranges = analyze(packing, analysis);
-  if (is_exact(options.arguments)) prove(packing, context, ranges);
+  if (is_exact(options.arguments)) ranges = prove(packing, context, ranges);
 
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");

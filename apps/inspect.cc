@@ -16,6 +16,7 @@
 #include "apps/command.h"
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/ranges_json.h"
 #include "apps/trial_reading.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/packing_file.h"
@@ -116,15 +117,9 @@ double largest(const Eigen::VectorXd& values) {
   return result;
 }
 
-/// Infinite values and NaN as text, which JSON lacks.
-nlohmann::json number(double value) {
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? nlohmann::json() : nlohmann::json(value > 0 ? "inf" : "-inf");
-}
-
 nlohmann::json to_json(const Account& account) {
   nlohmann::json json = account.texts;
-  for (const auto& [name, value] : account.numbers) json[name] = number(value);
+  for (const auto& [name, value] : account.numbers) json[name] = json_number(value);
   return json;
 }
 
@@ -162,28 +157,12 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
   if (contents.ranges) {
     const ForceRanges& r = *contents.ranges;
     json["ranges_sha256"] = contents.digests.ranges;
-    json["ranges"] = {{"status", to_string(r.status)},
-                      {"unknowns", r.unknowns},
-                      {"equations", r.equations},
-                      {"rank", r.rank},
-                      {"rank_ambiguous", r.rank_ambiguous},
-                      {"nullity", r.nullity},
-                      {"dim", r.dim},
-                      {"method", to_string(r.method)},
-                      {"formulation", r.formulation},
-                      {"requested", r.requested},
-                      {"objectives", r.objectives},
-                      {"certified", r.certified},
-                      {"unbounded", r.unbounded},
-                      {"imprecise", r.imprecise},
-                      {"failed", r.failed},
-                      {"states", r.states.rows()},
-                      {"mean_delta_R", number(extremes(r.delta_R).mean())},
-                      {"max_delta_R", number(largest(r.delta_R))},
-                      {"mean_delta_T", number(extremes(r.delta_T).mean())},
-                      {"max_delta_T", number(largest(r.delta_T))},
-                      {"worst_primal_residual", number(r.worst_primal_residual)},
-                      {"worst_dual_residual", number(r.worst_dual_residual)}};
+    json["ranges"] = summary_to_json(r);
+    json["ranges"].update({{"states", r.states.rows()},
+                           {"mean_delta_R", json_number(extremes(r.delta_R).mean())},
+                           {"max_delta_R", json_number(largest(r.delta_R))},
+                           {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
+                           {"max_delta_T", json_number(largest(r.delta_T))}});
   }
   return json;
 }

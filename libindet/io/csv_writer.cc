@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <vector>
 
 #include "libindet/base/error.h"
 #include "libindet/io/whole_file.h"
+#include "libindet/range/result_fields.h"
 
 namespace indet {
 namespace {
@@ -105,14 +106,40 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
   write_whole_file(folder / "scene.toml", scene_text(packing));
 }
 
+namespace {
+
+/// One column of the ranges: a field with one number a contact. An end of a range is followed by its outcome.
+struct RangeColumn {
+  std::string name;
+  Eigen::VectorXd values;
+  std::optional<Column> end;
+};
+
+std::vector<RangeColumn> range_columns(const ForceRanges& ranges) {
+  std::vector<RangeColumn> columns;
+  visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {
+    if constexpr (requires { requires Value::ColsAtCompileTime == 1; }) {
+      if (field.rows != Extent::kContacts) return;
+      RangeColumn& column = columns.emplace_back(field.name, value.template cast<double>());
+      for (const Column end : {kMinR, kMaxR, kMinT, kMaxT}) {
+        if (column.name == to_string(end)) column.end = end;
+      }
+    }
+  });
+  return columns;
+}
+
+}  // namespace
+
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
                          const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges) {
-  constexpr std::array kColumns = {kMinR, kMaxR, kMinT, kMaxT};
   const FileIds ids(packing);
+  const std::vector<RangeColumn> columns =
+      ranges != nullptr ? range_columns(*ranges) : std::vector<RangeColumn>{};
   std::string text = "contact,a,b,x,y,nx,ny,gap,mu,R,T";
-  if (ranges != nullptr) {
-    for (const Column column : kColumns) text += fmt::format(",{0},{0}_outcome", to_string(column));
-    text += ",delta_R,delta_T,d_R,d_T,R_star,T_star";
+  for (const RangeColumn& column : columns) {
+    text += "," + column.name;
+    if (column.end) text += "," + column.name + "_outcome";
   }
   text += "\n";
   for (int i = 0; i < packing.contact_count(); ++i) {
@@ -121,14 +148,9 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
     text +=
         fmt::format("{},{},{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
                     c.normal.x(), c.normal.y(), c.gap, c.mu, field(forces[2 * i]), field(forces[2 * i + 1]));
-    if (ranges != nullptr) {
-      for (const Column column : kColumns) {
-        text += fmt::format(",{},{}", field(ranges->value(i, column)), to_string(ranges->outcome(i, column)));
-      }
-      for (const double measure : {ranges->delta_R[i], ranges->delta_T[i], ranges->d_R[i], ranges->d_T[i],
-                                   ranges->R_star[i], ranges->T_star[i]}) {
-        text += "," + field(measure);
-      }
+    for (const RangeColumn& column : columns) {
+      text += "," + field(column.values[i]);
+      if (column.end) text += fmt::format(",{}", to_string(ranges->outcome(i, *column.end)));
     }
     text += "\n";
   }

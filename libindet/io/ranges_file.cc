@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <span>
 #include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/range/result_fields.h"
 
 namespace indet {
 namespace {
@@ -16,321 +22,228 @@ namespace {
 const EnumNames kOutcomes = {"optimal", "unbounded", "imprecise", "failed", "not_requested"};
 
 constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
-
 constexpr std::array kStatuses = {PolytopeStatus::kBounded, PolytopeStatus::kUnbounded,
                                   PolytopeStatus::kPoint, PolytopeStatus::kEmpty};
+constexpr std::array kChoices = {ContactChoice::Kind::kAll, ContactChoice::Kind::kSample,
+                                 ContactChoice::Kind::kList};
 
-// Files and structures have the same fields under the same names; each field is listed once here, for both
-// directions.
+/// Attributes that are stored as text: all values of their type.
+constexpr const auto& values_of(Method) { return kMethods; }
+constexpr const auto& values_of(PolytopeStatus) { return kStatuses; }
+constexpr const auto& values_of(ContactChoice::Kind) { return kChoices; }
 
-/// Numbers of the equilibrium problem: attributes of /equilibrium.
-template <class Ranges, class Visit>
-void for_each_integer(Ranges& r, Visit visit) {
-  visit("unknowns", r.unknowns);
-  visit("equations", r.equations);
-  visit("rank", r.rank);
-  visit("nullity", r.nullity);
-  visit("dim", r.dim);
-  visit("blocks", r.blocks);
-  visit("rank_ambiguous", r.rank_ambiguous);
-  visit("doubtful", r.doubtful);
-  visit("sliding", r.sliding);
-  visit("non_transmitting", r.non_transmitting);
-  visit("objectives", r.objectives);
-  visit("determined", r.determined);
-  visit("certified", r.certified);
-  visit("imprecise", r.imprecise);
-  visit("failed", r.failed);
-  visit("unbounded", r.unbounded);
-}
+constexpr const char* kWork = "/provenance/work";
 
-template <class Ranges, class Visit>
-void for_each_real(Ranges& r, Visit visit) {
-  visit("rank_gap", r.rank_gap);
-  visit("smallest_accepted", r.smallest_accepted);
-  visit("largest_rejected", r.largest_rejected);
-  visit("residual", r.residual);
-  visit("force_unit", r.force_unit);
-  visit("worst_primal_residual", r.worst_primal_residual);
-  visit("worst_dual_residual", r.worst_dual_residual);
-}
+bool is(const char* text, std::string_view other) { return text == other; }
 
-/// One number a contact: datasets of /ranges.
-template <class Ranges, class Visit>
-void for_each_column(Ranges& r, Visit visit) {
-  visit("delta_R", r.delta_R, "local indeterminacy of the normal force, inf where unbounded");
-  visit("delta_T", r.delta_T, "local indeterminacy of the tangential force, inf where unbounded");
-  visit("d_R", r.d_R, "global indeterminacy of the normal force, NaN where a state is missing");
-  visit("d_T", r.d_T, "global indeterminacy of the tangential force, NaN where a state is missing");
-  visit("R_star", r.R_star, "place of the simulated normal force in its range, NaN if unknown");
-  visit("T_star", r.T_star, "place of the simulated tangential force in its range, NaN if unknown");
-}
+std::string path_of(const Field& field) { return std::string(field.group) + "/" + field.name; }
 
-/// Four reals a contact: datasets of /ranges.
-template <class Ranges, class Visit>
-void for_each_table(Ranges& r, Visit visit) {
-  visit("lower", r.lower, Label{"force", "lower end of the enclosure of R_min, R_max, T_min, T_max"});
-  visit("upper", r.upper, Label{"force", "upper end of the enclosure of R_min, R_max, T_min, T_max"});
-  visit("sensitivity", r.sensitivity,
-        Label{"force/radian",
-              "how far the value moves at most, to first order, when every normal turns, per angle"});
-  visit("primal_residual", r.primal_residual,
-        Label{"mg", "violation of equilibrium and contact conditions by the extremal state"});
-  visit("dual_residual", r.dual_residual, Label{"1", "largest reduced cost of the wrong sign"});
-}
+/// Writes the fields of some groups.
+class FieldWriter {
+ public:
+  FieldWriter(Hdf5File& file, const ForceRanges& ranges, bool work)
+      : file_(file), ranges_(ranges), work_(work) {}
 
-/// What the paper's method counts: attributes of /provenance/work.
-template <class Work, class Visit>
-void for_each_count(Work& work, Visit visit) {
-  // In the order of InteriorEnd and of WalkEnd.
-  constexpr std::array<const char*, kInteriorEnds> kStarts = {"start_simulated", "start_unknown",
-                                                              "start_outside", "start_tight_corner"};
-  constexpr std::array<const char*, kWalkEnds> kEnds = {"walks_none_better",      "walks_more_active",
-                                                        "walks_fewer_active",     "walks_directions_lost",
-                                                        "walks_edge_without_end", "walks_step_limit"};
-  for (std::size_t end = 0; end < kStarts.size(); ++end) visit(kStarts[end], work.starts[end]);
-  for (std::size_t end = 0; end < kEnds.size(); ++end) visit(kEnds[end], work.walks[end]);
-  visit("sliding_left", work.sliding_left);
-  visit("extremal_points", work.points);
-  visit("unexpected_points", work.unexpected);
-  visit("neighbours", work.neighbours);
-}
-
-template <class Derived>
-Shape shape_of(const Eigen::DenseBase<Derived>& array) {
-  return {static_cast<std::size_t>(array.rows()), static_cast<std::size_t>(array.cols())};
-}
-
-/// The values in C order; `Array` must be stored by rows or be a vector.
-template <class Array>
-std::span<const typename Array::Scalar> span_of(const Array& array) {
-  return {array.data(), static_cast<std::size_t>(array.size())};
-}
-
-template <class Array, class T>
-void fill(Array& array, std::size_t rows, std::size_t columns, const std::vector<T>& values) {
-  array.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
-  std::copy(values.begin(), values.end(), array.data());
-}
-
-void write_equilibrium(Hdf5File& file, const ForceRanges& ranges) {
-  const std::string group = "/equilibrium";
-  file.make_group(group);
-  file.set_attribute(group, "status", to_string(ranges.status));
-  for_each_integer(ranges, [&](const char* name, auto value) {
-    file.set_attribute(group, name, static_cast<std::int64_t>(value));
-  });
-  for_each_real(ranges, [&](const char* name, double value) { file.set_attribute(group, name, value); });
-  if (ranges.motion.rows() > 0) {
-    file.write(
-        group + "/motion", span_of(ranges.motion), shape_of(ranges.motion),
-        {"1", "virtual velocity x, y and r*omega with which the disks move where no state is admissible"});
+  template <class Value>
+  void operator()(const Field& field, const Value& value) {
+    if (is(field.group, kWork) != work_) return;
+    if constexpr (requires { value.rows(); }) {
+      if (is_present(field.presence, ranges_, value.rows())) write(field, value.eval());
+    } else {
+      if (is_present(field.presence, ranges_, 1)) set_attribute(field, value);
+    }
   }
-}
 
-void write_tables(Hdf5File& file, const ForceRanges& ranges) {
-  const std::string group = "/ranges/";
-  file.make_group("/ranges");
-  const std::array<const char*, 4> names = {"smallest normal force", "largest normal force",
-                                            "smallest tangential force", "largest tangential force"};
-  for (const Column column : {kMinR, kMaxR, kMinT, kMaxT}) {
-    const Eigen::VectorXd values = ranges.value.col(column);
-    file.write(group + to_string(column), span_of(values), {static_cast<std::size_t>(values.size())},
-               {"force", std::string(names[column]) + ", inf where unbounded, NaN where not found"});
+ private:
+  template <class Table>
+  void write(const Field& field, const Table& table) {
+    using Number = typename Table::Scalar;
+    Shape shape = {static_cast<std::size_t>(table.rows())};
+    if (field.columns != Extent::kOne) shape.push_back(static_cast<std::size_t>(table.cols()));
+    const std::span<const Number> values(table.data(), static_cast<std::size_t>(table.size()));
+    const Label label = {field.unit, field.meaning};
+    if constexpr (std::is_same_v<Number, Outcome>) {
+      std::vector<std::uint8_t> numbers;
+      for (const Outcome outcome : values) numbers.push_back(static_cast<std::uint8_t>(outcome));
+      file_.write_enum(path_of(field), numbers, shape, kOutcomes, label);
+    } else {
+      file_.write(path_of(field), values, shape, label);
+    }
   }
-  for_each_column(ranges, [&](const char* name, const Eigen::VectorXd& values, const char* long_name) {
-    file.write(group + name, span_of(values), {static_cast<std::size_t>(values.size())}, {"1", long_name});
-  });
-  for_each_table(ranges, [&](const char* name, const Table4<double>& values, const Label& label) {
-    file.write(group + name, span_of(values), shape_of(values), label);
-  });
-  std::vector<std::uint8_t> outcome;
-  for (const Outcome o : span_of(ranges.outcome)) outcome.push_back(static_cast<std::uint8_t>(o));
-  file.write_enum(group + "outcome", outcome, shape_of(ranges.outcome), kOutcomes,
-                  {"1", "what became of R_min, R_max, T_min, T_max"});
-  file.write(group + "unique", span_of(ranges.unique), shape_of(ranges.unique),
-             {"1", "1 if only one state attains the value"});
-  file.write(group + "vertex", span_of(ranges.vertex), shape_of(ranges.vertex),
-             {"1", "row of /extremal/states that attains the value, -1 for none"});
-  file.write(group + "ray", span_of(ranges.ray), shape_of(ranges.ray),
-             {"1", "row of /extremal/rays along which the value grows without limit, -1 for none"});
-}
 
-/// Only where some contacts were left out.
-void write_choice(Hdf5File& file, const ForceRanges& ranges) {
-  if (ranges.choice == ContactChoice::Kind::kAll) return;
-  file.set_attribute("/ranges", "contacts", to_string(ranges.choice));
-  file.set_attribute("/ranges", "requested", ranges.requested);
-  if (ranges.choice != ContactChoice::Kind::kSample) return;
-  file.set_attribute("/ranges", "sample_seed", ranges.sample_seed);
-  file.set_attribute("/ranges", "confidence", kConfidence);
-  const auto write = [&](const std::string& name, const SampleEstimate& estimate) {
-    file.set_attribute("/ranges", "mean_" + name, std::array{estimate.mean, estimate.low, estimate.high});
-    file.set_attribute("/ranges", "band_" + name, estimate.band);
-  };
-  write("delta_R", ranges.sample_R);
-  write("delta_T", ranges.sample_T);
-}
+  void set_attribute(const Field& field,
+                     const std::tuple<const double&, const double&, const double&>& value) {
+    const std::array<double, 3> numbers = {std::get<0>(value), std::get<1>(value), std::get<2>(value)};
+    file_.set_attribute(field.group, field.name, numbers);
+  }
+  template <class Value>
+  void set_attribute(const Field& field, const Value& value) {
+    if constexpr (std::is_enum_v<Value>) {
+      file_.set_attribute(field.group, field.name, to_string(value));
+    } else if constexpr (std::is_integral_v<Value>) {
+      file_.set_attribute(field.group, field.name, static_cast<std::int64_t>(value));
+    } else {
+      file_.set_attribute(field.group, field.name, value);
+    }
+  }
 
-void write_extremal(Hdf5File& file, const ForceRanges& ranges) {
-  file.make_group("/extremal");
-  file.set_attribute("/extremal", "largest_norm", ranges.largest_norm);
-  file.write("/extremal/states", span_of(ranges.states), shape_of(ranges.states),
-             {"force", "extremal states (R_1, T_1, ..., R_M, T_M), each once"});
-  file.write("/extremal/norm", span_of(ranges.norm), {static_cast<std::size_t>(ranges.norm.size())},
-             {"force", "Euclidean norm of the state"});
-  file.write("/extremal/active", span_of(ranges.active), shape_of(ranges.active),
-             {"1", "half-planes that define the state: 2a for mu R + T >= 0, 2a+1 for mu R - T >= 0"});
-}
-
-void write_rays(Hdf5File& file, const ForceRanges& ranges) {
-  if (ranges.rays.rows() == 0) return;
-  file.write("/extremal/rays", span_of(ranges.rays), shape_of(ranges.rays),
-             {"1", "directions (R_1, T_1, ..., R_M, T_M) in which forces can be added without limit"});
-}
+  Hdf5File& file_;
+  const ForceRanges& ranges_;
+  bool work_;
+};
 
 [[noreturn]] void fail(const Hdf5File& file, const std::string& object, const std::string& reason) {
   throw Hdf5ReadError(fmt::format("{}: {}: {}", file.path().string(), object, reason));
 }
 
-void read_equilibrium(const Hdf5File& file, std::size_t disks, ForceRanges& ranges) {
-  const std::string group = "/equilibrium";
-  const std::string status = file.string_attribute(group, "status");
-  const auto* const found = std::find_if(kStatuses.begin(), kStatuses.end(),
-                                         [&](PolytopeStatus s) { return status == to_string(s); });
-  if (found == kStatuses.end()) fail(file, group + "@status", fmt::format("\"{}\" is unknown", status));
-  ranges.status = *found;
-  for_each_integer(ranges, [&](const char* name, auto& value) {
-    value = static_cast<std::remove_reference_t<decltype(value)>>(file.integer_attribute(group, name));
-  });
-  for_each_real(ranges, [&](const char* name, double& value) { value = file.double_attribute(group, name); });
-  if (file.has(group + "/motion")) {
-    fill(ranges.motion, disks, 3, file.read_doubles(group + "/motion", {disks, 3}));
+/// Reads all fields; those that decide about others come first.
+class FieldReader {
+ public:
+  FieldReader(const Hdf5File& file, const ForceRanges& ranges) : file_(file), ranges_(ranges) {
+    sizes_[Extent::kOne] = 1;
+    sizes_[Extent::kComponents] = 3;
+    sizes_[Extent::kColumns] = 4;
+    sizes_[Extent::kDisks] = file.shape("/particles/disks/id", 1)[0];
+    sizes_[Extent::kContacts] = file.shape("/contacts/body_a", 1)[0];
+    sizes_[Extent::kForces] = 2 * sizes_[Extent::kContacts];
   }
-}
 
-void read_tables(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges) {
-  const std::string group = "/ranges/";
-  const Shape table = {contacts, 4};
-  ranges.value.resize(static_cast<Eigen::Index>(contacts), 4);
-  for (const Column column : {kMinR, kMaxR, kMinT, kMaxT}) {
-    const auto values = file.read_doubles(group + to_string(column), {contacts});
-    std::copy(values.begin(), values.end(), ranges.value.col(column).begin());
+  template <class Value>
+  void operator()(const Field& field, Value&& value) {
+    if constexpr (requires { value.rows(); }) {
+      if (field.presence == Presence::kWhereRows && !file_.has(path_of(field))) {
+        resize(value, 0, size(field.columns));
+      } else {
+        read(field, value);
+      }
+    } else {
+      if (is_stored(field)) read_attribute(field, value);
+    }
   }
-  for_each_column(ranges, [&](const char* name, Eigen::VectorXd& values, const char*) {
-    fill(values, contacts, 1, file.read_doubles(group + name, {contacts}));
-  });
-  for_each_table(ranges, [&](const char* name, Table4<double>& values, const Label&) {
-    fill(values, contacts, 4, file.read_doubles(group + name, table));
-  });
-  ranges.outcome.resize(static_cast<Eigen::Index>(contacts), 4);
-  const auto outcome = file.read_enum(group + "outcome", table, kOutcomes);
-  std::transform(outcome.begin(), outcome.end(), ranges.outcome.data(),
-                 [](std::uint8_t value) { return static_cast<Outcome>(value); });
-  fill(ranges.unique, contacts, 4, file.read_bytes(group + "unique", table));
-  fill(ranges.vertex, contacts, 4, file.read_integers(group + "vertex", table));
-  fill(ranges.ray, contacts, 4, file.read_integers(group + "ray", table));
-}
 
-void read_choice(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges) {
-  ranges.requested = static_cast<int>(contacts);
-  if (!file.has_attribute("/ranges", "contacts")) return;
-  const std::string choice = file.string_attribute("/ranges", "contacts");
-  if (choice == to_string(ContactChoice::Kind::kSample)) {
-    ranges.choice = ContactChoice::Kind::kSample;
-  } else if (choice == to_string(ContactChoice::Kind::kList)) {
-    ranges.choice = ContactChoice::Kind::kList;
-  } else {
-    fail(file, "/ranges@contacts", fmt::format("\"{}\" is unknown", choice));
+ private:
+  bool is_stored(const Field& field) const {
+    // A file of all contacts does not say so, and one of an earlier version not by which method.
+    const bool may_lack = is(field.group, "/ranges") && is(field.name, "contacts");
+    const bool may_be_older = is(field.group, kWork) && is(field.name, "method");
+    if (may_lack || may_be_older) return file_.has_attribute(field.group, field.name);
+    return is_present(field.presence, ranges_, 1);
   }
-  const std::int64_t requested = file.integer_attribute("/ranges", "requested");
-  if (requested < 0 || requested > static_cast<std::int64_t>(contacts))
-    fail(file, "/ranges@requested", fmt::format("{} of {} contacts", requested, contacts));
-  ranges.requested = static_cast<int>(requested);
+
+  /// The sizes that the packing does not tell are those of the first table that has them.
+  std::size_t size(Extent extent) const { return sizes_.contains(extent) ? sizes_.at(extent) : 0; }
+
+  Shape shape_of(const Field& field) {
+    const bool is_matrix = field.columns != Extent::kOne;
+    const std::string path = path_of(field);
+    for (const Extent extent : {field.rows, field.columns}) {
+      if (!sizes_.contains(extent))
+        sizes_[extent] = file_.shape(path, is_matrix ? 2 : 1)[extent == field.rows ? 0 : 1];
+    }
+    return is_matrix ? Shape{size(field.rows), size(field.columns)} : Shape{size(field.rows)};
+  }
+
+  template <class Table>
+  static void resize(Table& table, std::size_t rows, std::size_t columns) {
+    table.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  }
+
+  template <class Table>
+  void read(const Field& field, Table& table) {
+    using Number = typename Table::Scalar;
+    const Shape shape = shape_of(field);
+    const std::string path = path_of(field);
+    const auto fill = [&](const auto& values) {
+      if constexpr (requires { table.resize(1, 1); }) {
+        resize(table, shape[0], shape.size() == 2 ? shape[1] : 1);
+        std::transform(values.begin(), values.end(), table.data(),
+                       [](auto number) { return static_cast<Number>(number); });
+      } else {
+        std::copy(values.begin(), values.end(), table.begin());
+      }
+    };
+    if constexpr (std::is_same_v<Number, Outcome>) {
+      fill(file_.read_enum(path, shape, kOutcomes));
+    } else if constexpr (std::is_same_v<Number, double>) {
+      fill(file_.read_doubles(path, shape));
+    } else if constexpr (std::is_same_v<Number, std::int32_t>) {
+      fill(file_.read_integers(path, shape));
+    } else {
+      fill(file_.read_bytes(path, shape));
+    }
+  }
+
+  void read_attribute(const Field& field, std::tuple<double&, double&, double&>& value) {
+    const std::vector<double> numbers = file_.doubles_attribute(field.group, field.name, 3);
+    value = std::tuple(numbers[0], numbers[1], numbers[2]);
+  }
+  void read_attribute(const Field& field, double& value) {
+    value = file_.double_attribute(field.group, field.name);
+  }
+  void read_attribute(const Field& field, std::string& value) {
+    value = file_.string_attribute(field.group, field.name);
+  }
+  template <class Value>
+  void read_attribute(const Field& field, Value& value) {
+    const auto refuse = [&](const std::string& reason) {
+      fail(file_, std::string(field.group) + "@" + field.name, reason);
+    };
+    if constexpr (std::is_enum_v<Value>) {
+      const std::string text = file_.string_attribute(field.group, field.name);
+      const auto& values = values_of(value);
+      const auto found =
+          std::find_if(values.begin(), values.end(), [&](Value v) { return text == to_string(v); });
+      if (found == values.end()) refuse(fmt::format("\"{}\" is unknown", text));
+      value = *found;
+    } else {
+      const std::int64_t number = file_.integer_attribute(field.group, field.name);
+      value = static_cast<Value>(number);
+      if (static_cast<std::int64_t>(value) != number) refuse(fmt::format("{} is out of range", number));
+    }
+  }
+
+  const Hdf5File& file_;
+  const ForceRanges& ranges_;
+  std::map<Extent, std::size_t> sizes_;
+};
+
+/// Numbers of contacts, and what they tell of a sample.
+void check_request(const Hdf5File& file, const ForceRanges& ranges) {
+  if (ranges.requested < 0 || ranges.requested > ranges.value.rows())
+    fail(file, "/ranges@requested", fmt::format("{} of {} contacts", ranges.requested, ranges.value.rows()));
   if (ranges.choice != ContactChoice::Kind::kSample) return;
-  ranges.sample_seed = file.integer_attribute("/ranges", "sample_seed");
   if (file.double_attribute("/ranges", "confidence") != kConfidence)
     fail(file, "/ranges@confidence", fmt::format("is not {}", kConfidence));
-  const auto read = [&](const std::string& name, SampleEstimate& estimate) {
-    const std::vector<double> mean = file.doubles_attribute("/ranges", "mean_" + name, 3);
-    estimate = {mean[0], mean[1], mean[2], file.double_attribute("/ranges", "band_" + name)};
-  };
-  read("delta_R", ranges.sample_R);
-  read("delta_T", ranges.sample_T);
 }
 
-void read_extremal(const Hdf5File& file, std::size_t contacts, ForceRanges& ranges) {
-  const std::size_t count = file.shape("/extremal/norm", 1)[0];
-  fill(ranges.norm, count, 1, file.read_doubles("/extremal/norm", {count}));
-  fill(ranges.states, count, 2 * contacts, file.read_doubles("/extremal/states", {count, 2 * contacts}));
-  const Shape active = file.shape("/extremal/active", 2);
-  fill(ranges.active, count, active[1], file.read_integers("/extremal/active", {count, active[1]}));
-  const auto half_planes = static_cast<std::int32_t>(2 * contacts);
-  for (const std::int32_t plane : span_of(ranges.active)) {
-    if (plane < -1 || plane >= half_planes) {
+/// Every number that points to a state, a ray or a half-plane finds it.
+void check_pointers(const Hdf5File& file, const ForceRanges& ranges) {
+  const auto check = [&](const char* object, const char* what, std::int64_t row, Eigen::Index count) {
+    if (row < -1 || row >= count)
+      fail(file, object, fmt::format("points to {} {}, but there are {}", what, row, count));
+  };
+  for (const std::int32_t plane : ranges.active.reshaped()) {
+    if (plane < -1 || plane >= 2 * ranges.value.rows())
       fail(file, "/extremal/active", fmt::format("there is no half-plane {}", plane));
-    }
   }
-  const auto check_row = [&](const char* object, std::int64_t row) {
-    if (row < -1 || row >= static_cast<std::int64_t>(count)) {
-      fail(file, object, fmt::format("points to state {}, but there are {}", row, count));
-    }
-  };
-  const std::int64_t largest = file.integer_attribute("/extremal", "largest_norm");
-  check_row("/extremal@largest_norm", largest);
-  ranges.largest_norm = static_cast<int>(largest);
-  for (const std::int32_t row : span_of(ranges.vertex)) check_row("/ranges/vertex", row);
-  const std::size_t rays = file.has("/extremal/rays") ? file.shape("/extremal/rays", 2)[0] : 0;
-  if (rays > 0)
-    fill(ranges.rays, rays, 2 * contacts, file.read_doubles("/extremal/rays", {rays, 2 * contacts}));
-  for (const std::int32_t row : span_of(ranges.ray)) {
-    if (row < -1 || row >= static_cast<std::int64_t>(rays)) {
-      fail(file, "/ranges/ray", fmt::format("points to ray {}, but there are {}", row, rays));
-    }
-  }
-}
-
-void read_method(const Hdf5File& file, ForceRanges& ranges) {
-  const std::string name = file.string_attribute("/provenance/work", "method");
-  const auto* const found = std::find_if(kMethods.begin(), kMethods.end(),
-                                         [&](Method method) { return name == to_string(method); });
-  if (found == kMethods.end()) fail(file, "/provenance/work@method", fmt::format("\"{}\" is unknown", name));
-  ranges.method = *found;
-  if (ranges.method != Method::kPivotingPaper) return;
-  for_each_count(ranges.paper, [&](const char* attribute, std::int64_t& value) {
-    value = file.integer_attribute("/provenance/work", attribute);
-  });
-}
-
-void read_work(const Hdf5File& file, ForceRanges& ranges) {
-  if (file.has_attribute("/provenance/work", "method")) read_method(file, ranges);
-  ranges.formulation = file.string_attribute("/provenance/work", "formulation");
-  ranges.solves = file.integer_attribute("/provenance/work", "solves");
-  ranges.pivots = file.integer_attribute("/provenance/work", "pivots");
-  ranges.seconds = file.number_attributes("/provenance/timings");
+  check("/extremal@largest_norm", "state", ranges.largest_norm, ranges.states.rows());
+  for (const std::int32_t row : ranges.vertex.reshaped())
+    check("/ranges/vertex", "state", row, ranges.states.rows());
+  for (const std::int32_t row : ranges.ray.reshaped()) check("/ranges/ray", "ray", row, ranges.rays.rows());
 }
 
 }  // namespace
 
 void write_ranges_part(Hdf5File& file, const ForceRanges& ranges) {
-  write_equilibrium(file, ranges);
-  write_tables(file, ranges);
-  write_choice(file, ranges);
-  write_extremal(file, ranges);
-  write_rays(file, ranges);
+  for (const char* group : {"/equilibrium", "/ranges", "/extremal"}) file.make_group(group);
+  visit_fields(ranges, FieldWriter(file, ranges, false));
+  if (ranges.choice == ContactChoice::Kind::kSample) file.set_attribute("/ranges", "confidence", kConfidence);
   file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
 }
 
 void write_work_part(Hdf5File& file, const ForceRanges& ranges) {
-  file.make_group("/provenance/work");
-  file.set_attribute("/provenance/work", "method", to_string(ranges.method));
-  file.set_attribute("/provenance/work", "formulation", ranges.formulation);
-  file.set_attribute("/provenance/work", "solves", ranges.solves);
-  file.set_attribute("/provenance/work", "pivots", ranges.pivots);
-  if (ranges.method != Method::kPivotingPaper) return;
-  for_each_count(ranges.paper, [&](const char* attribute, std::int64_t value) {
-    file.set_attribute("/provenance/work", attribute, value);
-  });
+  file.make_group(kWork);
+  visit_fields(ranges, FieldWriter(file, ranges, true));
 }
 
 void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
@@ -352,14 +265,13 @@ ForceRanges read_ranges(const std::filesystem::path& path) {
     throw Hdf5ReadError(
         fmt::format("{}: has no force ranges; compute them with indet analyze", path.string()));
   }
-  const std::size_t disks = file.shape("/particles/disks/id", 1)[0];
-  const std::size_t contacts = file.shape("/contacts/body_a", 1)[0];
   ForceRanges ranges;
-  read_equilibrium(file, disks, ranges);
-  read_tables(file, contacts, ranges);
-  read_choice(file, contacts, ranges);
-  read_extremal(file, contacts, ranges);
-  read_work(file, ranges);
+  FieldReader reader(file, ranges);
+  visit_fields(ranges, reader);
+  if (ranges.choice == ContactChoice::Kind::kAll) ranges.requested = static_cast<int>(ranges.value.rows());
+  check_request(file, ranges);
+  check_pointers(file, ranges);
+  ranges.seconds = file.number_attributes("/provenance/timings");
   return ranges;
 }
 

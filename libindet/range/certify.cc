@@ -8,64 +8,95 @@
 #include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
+namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void certify(const Packing& packing, ForceRanges& ranges) {
-  const double unit = ranges.force_unit;
+struct StateResiduals {
+  Eigen::VectorXd primal;  ///< Of each state, over the largest of its forces.
+  double balance = 0;      ///< The largest ‖cF + w‖∞.
+};
+
+StateResiduals residuals_of(const Packing& packing, double unit, const Rows<double>& states) {
   const double least = packing.internal_force_unit() / unit;
-  Eigen::VectorXd residual(ranges.states.rows());
-  Eigen::VectorXd scale(ranges.states.rows());
-  ranges.residual = 0;
-  for (Eigen::Index k = 0; k < ranges.states.rows(); ++k) {
-    const SceneForces forces(ranges.states.row(k).transpose());
+  StateResiduals result;
+  result.primal.resize(states.rows());
+  for (Eigen::Index k = 0; k < states.rows(); ++k) {
+    const SceneForces forces(states.row(k).transpose());
     const double balance =
         packing.disk_count() > 0 ? equilibrium_residual(packing, forces).cwiseAbs().maxCoeff() : 0;
-    scale[k] =
+    const double scale =
         std::max(least, forces.value().size() > 0 ? forces.value().lpNorm<Eigen::Infinity>() / unit : 0.0);
-    residual[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale[k];
-    ranges.residual = std::max(ranges.residual, balance);
+    result.primal[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale;
+    result.balance = std::max(result.balance, balance);
   }
-  ranges.worst_primal_residual = 0;
-  ranges.worst_dual_residual = 0;
-  for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
+  return result;
+}
+
+/// Value, enclosure and outcome of one objective.
+void certify_objective(const Extrema& extrema, const StateResiduals& residuals, Eigen::Index i, int column,
+                       Certified& result) {
+  const int vertex = extrema.vertex(i, column);
+  Outcome& outcome = result.outcome(i, column);
+  double& value = result.value(i, column);
+  double& lower = result.lower(i, column);
+  double& upper = result.upper(i, column);
+  if (vertex >= 0) {
+    value = extrema.states(vertex, 2 * i + (column >= kMinT ? 1 : 0));
+    if (result.doubtful) {  // the enclosure rests on decisions that are in doubt
+      lower = -kInfinity;
+      upper = kInfinity;
+    }
+    result.primal_residual(i, column) = residuals.primal[vertex];
+    const bool is_precise = result.primal_residual(i, column) <= tolerance::kPrimalResidual &&
+                            result.dual_residual(i, column) <= tolerance::kDualResidual;
+    if (!is_precise) outcome = Outcome::kImprecise;
+  } else if (outcome == Outcome::kUnbounded || outcome == Outcome::kImprecise) {
+    const bool is_maximum = column == kMaxR || column == kMaxT;
+    lower = upper = value = is_maximum ? kInfinity : -kInfinity;
+    if (outcome == Outcome::kImprecise || result.doubtful)  // it may be finite after all
+      (is_maximum ? lower : upper) *= -1;
+  }
+  const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
+  if (has_value && result.doubtful) outcome = Outcome::kImprecise;
+}
+
+}  // namespace
+
+Certified certify(const Packing& packing, const ProblemSummary& problem, const Extrema& extrema,
+                  const Enclosures& enclosures) {
+  const StateResiduals residuals = residuals_of(packing, problem.force_unit, extrema.states);
+  Certified result;
+  result.doubtful = !enclosures.proven;
+  result.value.setConstant(extrema.claim.rows(), 4, std::numeric_limits<double>::quiet_NaN());
+  result.lower = enclosures.lower;
+  result.upper = enclosures.upper;
+  result.sensitivity = enclosures.sensitivity;
+  result.outcome = extrema.claim;
+  result.primal_residual = extrema.ray_residual;
+  result.dual_residual = extrema.dual_residual;
+  result.residual = residuals.balance;
+  result.worst_primal_residual = result.worst_dual_residual = 0;
+  for (Eigen::Index i = 0; i < result.outcome.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
       const bool is_left_out =
-          ranges.outcome(i, column) == Outcome::kNotRequested && ranges.status != PolytopeStatus::kEmpty;
+          result.outcome(i, column) == Outcome::kNotRequested && problem.status != PolytopeStatus::kEmpty;
       if (is_left_out) continue;
-      ++ranges.objectives;
-      const int vertex = ranges.vertex(i, column);
-      Outcome& outcome = ranges.outcome(i, column);
-      if (vertex >= 0) {
-        const double primal = residual[vertex];
-        const double dual = ranges.dual_residual(i, column);
-        const double value = ranges.states(vertex, 2 * i + (column >= kMinT ? 1 : 0));
-        ranges.value(i, column) = value;
-        if (ranges.doubtful) {  // the enclosure rests on decisions that are in doubt
-          ranges.lower(i, column) = -kInfinity;
-          ranges.upper(i, column) = kInfinity;
-        }
-        ranges.primal_residual(i, column) = primal;
-        if (primal > tolerance::kPrimalResidual || dual > tolerance::kDualResidual)
-          outcome = Outcome::kImprecise;
-      } else if (std::isinf(ranges.value(i, column))) {
-        ranges.lower(i, column) = ranges.upper(i, column) = ranges.value(i, column);
-        if (outcome == Outcome::kImprecise || ranges.doubtful)  // it may be finite after all
-          (ranges.value(i, column) > 0 ? ranges.lower : ranges.upper)(i, column) *= -1;
+      ++result.objectives;
+      certify_objective(extrema, residuals, i, column, result);
+      const Outcome outcome = result.outcome(i, column);
+      if (outcome != Outcome::kFailed && outcome != Outcome::kNotRequested) {
+        result.worst_primal_residual =
+            std::max(result.worst_primal_residual, result.primal_residual(i, column));
+        result.worst_dual_residual = std::max(result.worst_dual_residual, result.dual_residual(i, column));
       }
-      const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
-      if (has_value && ranges.doubtful) outcome = Outcome::kImprecise;
-      if (has_value) {
-        ranges.worst_primal_residual =
-            std::max(ranges.worst_primal_residual, ranges.primal_residual(i, column));
-        ranges.worst_dual_residual = std::max(ranges.worst_dual_residual, ranges.dual_residual(i, column));
-      }
-      ranges.certified += outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded ? 1 : 0;
-      ranges.unbounded += outcome == Outcome::kUnbounded ? 1 : 0;
-      ranges.imprecise += outcome == Outcome::kImprecise ? 1 : 0;
-      ranges.failed += outcome == Outcome::kFailed ? 1 : 0;
+      result.certified += outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded ? 1 : 0;
+      result.unbounded += outcome == Outcome::kUnbounded ? 1 : 0;
+      result.imprecise += outcome == Outcome::kImprecise ? 1 : 0;
+      result.failed += outcome == Outcome::kFailed ? 1 : 0;
     }
   }
+  return result;
 }
 
 }  // namespace indet

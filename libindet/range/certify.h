@@ -1,13 +1,39 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "libindet/packing/packing.h"
-#include "libindet/range/force_ranges.h"
+#include "libindet/range/enclosure.h"
+#include "libindet/range/extrema.h"
+#include "libindet/range/outcome.h"
+#include "libindet/range/problem_summary.h"
 
 namespace indet {
 
-/// Reads each value from its stored state, recomputes the primal residuals from the packing, bounds the
-/// values where a decision about F is in doubt, and lets the residuals decide between `optimal` and
-/// `imprecise`; then counts outcomes. Expects states, vertex, outcome, dual_residual and rank_ambiguous.
-void certify(const Packing& packing, ForceRanges& ranges);
+/// The values and what may be said of each: the fourth stage of an analysis. M contacts, columns R_min,
+/// R_max, T_min, T_max. Forces are in the scene's units; residuals are dimensionless.
+struct Certified {
+  /// Some decision about F (rank, emptiness, dimension, boundedness) lies within rounding: every result is
+  /// imprecise.
+  bool doubtful = false;
+  Table4<double> value;         ///< ±inf where unbounded, NaN where not found.
+  Table4<double> lower, upper;  ///< Enclosure of the value; infinite where nothing is proven.
+  Table4<double> sensitivity;   ///< Enclosures::sensitivity.
+  Table4<Outcome> outcome;
+  Table4<double> primal_residual, dual_residual;
+  /// Objectives by outcome; `certified` are optimal or unbounded.
+  std::int64_t objectives = 0, certified = 0, unbounded = 0, imprecise = 0, failed = 0;
+  double worst_primal_residual = std::numeric_limits<double>::quiet_NaN();
+  double worst_dual_residual = std::numeric_limits<double>::quiet_NaN();
+  double residual = std::numeric_limits<double>::quiet_NaN();  ///< Largest ‖cF + w‖∞ over the stored states,
+                                                               ///< in force units.
+};
+
+/// Reads each value from its state, recomputes the primal residuals from the packing, lets go of enclosures
+/// that rest on a decision about F which is in doubt, and lets the residuals decide between `optimal` and
+/// `imprecise`; then counts outcomes. Where F is empty all objectives count, and none has an outcome.
+Certified certify(const Packing& packing, const ProblemSummary& problem, const Extrema& extrema,
+                  const Enclosures& enclosures);
 
 }  // namespace indet

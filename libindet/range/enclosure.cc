@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "libindet/base/tolerances.h"
 
@@ -52,8 +53,8 @@ struct StateBound {
 
 class Encloser {
  public:
-  Encloser(const ForcePolytope& polytope, ForceRanges& ranges)
-      : polytope_(polytope), problem_(polytope.problem), ranges_(ranges) {
+  Encloser(const ForcePolytope& polytope, const Extrema& extrema)
+      : polytope_(polytope), problem_(polytope.problem), extrema_(extrema) {
     first_.assign(problem_.contacts.size(), -1);
     for (int k = problem_.unknowns() - 1; k >= 0; --k)
       first_[static_cast<std::size_t>(problem_.edges[static_cast<std::size_t>(k)].contact.value())] = k;
@@ -61,18 +62,20 @@ class Encloser {
     bound_states();
   }
 
-  bool run(std::span<const OptimalBasis> optima) {
-    sort_bases(optima);
+  Enclosures run() {
+    sort_bases(extrema_.proofs);
     bound_strengths();
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
-    ranges_.sensitivity.setConstant(count, 4, ForceRanges::kNaN);
+    for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
+      table->setConstant(count, 4, std::numeric_limits<double>::quiet_NaN());
     for (Eigen::Index i = 0; i < count; ++i) {
       for (int column = 0; column < 4; ++column) {
-        if (ranges_.vertex(i, column) >= 0) enclose(i, column);
+        if (extrema_.vertex(i, column) >= 0) enclose(i, column);
       }
     }
     const bool limited = polytope_.status != PolytopeStatus::kBounded || std::isfinite(total_);
-    return inside_ && limited;
+    enclosures_.proven = !polytope_.doubtful && inside_ && limited;
+    return std::move(enclosures_);
   }
 
  private:
@@ -197,10 +200,10 @@ class Encloser {
       for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) length[it.row()] += 1;
     }
     if (length.size() > 0) row_length_ = length.maxCoeff();
-    for (Eigen::Index row = 0; row < ranges_.states.rows(); ++row) {
+    for (Eigen::Index row = 0; row < extrema_.states.rows(); ++row) {
       StateBound bound;
       bound.u =
-          problem_.unknowns_of(problem_.units.internal(SceneForces(ranges_.states.row(row).transpose())));
+          problem_.unknowns_of(problem_.units.internal(SceneForces(extrema_.states.row(row).transpose())));
       states_.push_back(std::move(bound));
     }
     centre_.u = problem_.unknowns_of(problem_.state(polytope_.interior));
@@ -221,7 +224,7 @@ class Encloser {
     }
   }
 
-  void sort_bases(std::span<const OptimalBasis> optima) {
+  void sort_bases(const std::vector<OptimalBasis>& optima) {
     basis_of_.setConstant(static_cast<Eigen::Index>(problem_.contacts.size()), 4, -1);
     std::map<std::pair<std::size_t, Basis>, int> numbers;
     for (const OptimalBasis& optimum : optima) {
@@ -299,7 +302,7 @@ class Encloser {
     }
   }
 
-  /// Upper bound of −y·w.
+  /// Upper bound of y·b.
   double load_bound(const Eigen::VectorXd& y) const {
     const Dot dot = accurate_dot(y, load_);
     return dot.value + kWiden * (dot.error + y.cwiseAbs().dot(load_error_));
@@ -332,7 +335,7 @@ class Encloser {
     for (int k = 0; k < problem_.unknowns(); ++k) {
       const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
       const Eigen::Index i = edge.contact.value();
-      if (ranges_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
+      if (extrema_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
       const Functional f = functional(i, false, 1);
       const Eigen::VectorXd y_of_maximum = multipliers(f, basis_of_(i, kMaxR));
       const double R = load_bound(y_of_maximum) + worst_excess(f, y_of_maximum) * total_;
@@ -382,8 +385,8 @@ class Encloser {
       Vector2 relative(0, 0);
       if (contact.a >= 0) relative += motion.segment<2>(contact.a);
       if (contact.b >= 0) relative -= motion.segment<2>(contact.b);
-      const double R = ranges_.states(state, 2 * static_cast<Eigen::Index>(i));
-      const double T = ranges_.states(state, 2 * static_cast<Eigen::Index>(i) + 1);
+      const double R = extrema_.states(state, 2 * static_cast<Eigen::Index>(i));
+      const double T = extrema_.states(state, 2 * static_cast<Eigen::Index>(i) + 1);
       sum += std::abs(relative.dot(T * contact.normal - R * contact.tangent()));
     }
     return sum;
@@ -391,14 +394,14 @@ class Encloser {
 
   void enclose(Eigen::Index i, int column) {
     const double sign = column == kMaxR || column == kMaxT ? 1 : -1;
-    const Eigen::Index row = ranges_.vertex(i, column);
+    const Eigen::Index row = extrema_.vertex(i, column);
     const StateBound& state = states_[static_cast<std::size_t>(row)];
-    const double stored = ranges_.states(row, 2 * i + (column >= kMinT ? 1 : 0));
+    const double stored = extrema_.states(row, 2 * i + (column >= kMinT ? 1 : 0));
     double inner = 0;
     double outer = 0;
     const Functional f = functional(i, column >= kMinT, sign);
     if (f.on_edges.empty()) {  // closed throughout F: exactly 0
-      ranges_.sensitivity(i, column) = 0;
+      enclosures_.sensitivity(i, column) = 0;
     } else {
       const Eigen::VectorXd y = multipliers(f, basis_of_(i, column));
       outer = from_above(f, y);
@@ -411,7 +414,7 @@ class Encloser {
         }
         inner = std::max(inner, -from_above(opposite, -y));
       }
-      ranges_.sensitivity(i, column) = sensitivity_of(y, row);
+      enclosures_.sensitivity(i, column) = sensitivity_of(y, row);
     }
     const double unit = problem_.units.internal_in_scene();
     const auto widened = [&](double bound, double direction) {
@@ -420,13 +423,14 @@ class Encloser {
     };
     const double low = sign > 0 ? inner : -outer;
     const double high = sign > 0 ? outer : -inner;
-    ranges_.lower(i, column) = std::min(stored, widened(low, -1));
-    ranges_.upper(i, column) = std::max(stored, widened(high, 1));
+    enclosures_.lower(i, column) = std::min(stored, widened(low, -1));
+    enclosures_.upper(i, column) = std::max(stored, widened(high, 1));
   }
 
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
-  ForceRanges& ranges_;
+  const Extrema& extrema_;
+  Enclosures enclosures_;
   std::vector<int> first_;                   ///< of each contact its first unknown, −1 if it is open
   std::vector<int> rows_;                    ///< independent equations
   Eigen::SparseMatrix<double> matrix_;       ///< A on these rows
@@ -446,9 +450,14 @@ class Encloser {
 
 }  // namespace
 
-bool enclose_values(const ForcePolytope& polytope, std::span<const OptimalBasis> optima,
-                    ForceRanges& ranges) {
-  return Encloser(polytope, ranges).run(optima);
+Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema) {
+  if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema).run();
+  Enclosures none;
+  for (auto* table : {&none.lower, &none.upper, &none.sensitivity})
+    table->setConstant(static_cast<Eigen::Index>(polytope.problem.contacts.size()), 4,
+                       std::numeric_limits<double>::quiet_NaN());
+  none.proven = !polytope.doubtful;
+  return none;
 }
 
 }  // namespace indet

@@ -1,20 +1,21 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "libindet/lp/feasible_set.h"
 #include "libindet/polytope/force_polytope.h"
-#include "libindet/range/force_ranges.h"
+#include "libindet/range/extrema.h"
+#include "libindet/range/outcome.h"
 
 namespace indet {
 
-/// The basis at which one objective was found optimal.
-struct OptimalBasis {
-  Eigen::Index contact = 0;
-  int column = 0;  ///< Column
-  std::size_t block = 0;
-  Basis basis;  ///< local to the block
+/// What is known of the values without trust in the search: the third stage of an analysis. Forces are in the
+/// scene's units; NaN where there is no extremal state.
+struct Enclosures {
+  Table4<double> lower, upper;
+  /// How far the value moves, at most and to first order, when every normal turns by a small angle, over that
+  /// angle (force per radian).
+  Table4<double> sensitivity;
+  /// All that the enclosures rest on is proven: nothing about F is in doubt, some admissible state is known,
+  /// and a polytope called bounded is. Where not, no enclosure holds.
+  bool proven = false;
 };
 
 /// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
@@ -41,10 +42,9 @@ struct OptimalBasis {
 /// Preconditions on which the enclosure rests and that are proven elsewhere: the rank and the closed edges
 /// (exact::proves_structure). Where a step fails, that side of the enclosure is infinite. Where F is
 /// unbounded there are no X_k: the outer side stays infinite unless every h_k ≤ 0.
-
-/// Fills lower, upper and sensitivity of every objective that has a state, from `states` and `vertex`.
-/// Objectives without an entry in `optima` are determined: the same in every state. Returns false if some
-/// admissible state, or the boundedness of a polytope called bounded, could not be proven.
-bool enclose_values(const ForcePolytope& polytope, std::span<const OptimalBasis> optima, ForceRanges& ranges);
+///
+/// Objectives without an entry in `extrema.proofs` are determined: the same in every state. An empty F has
+/// nothing to enclose; `proven` then tells whether its emptiness is beyond doubt.
+Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema);
 
 }  // namespace indet

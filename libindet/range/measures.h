@@ -1,12 +1,34 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "libindet/packing/packing.h"
-#include "libindet/range/force_ranges.h"
+#include "libindet/range/certify.h"
+#include "libindet/range/contact_choice.h"
+#include "libindet/range/extrema.h"
+#include "libindet/range/problem_summary.h"
+#include "libindet/statistics/sample_estimate.h"
 
 namespace indet {
 
-/// Fills the measures that follow from values, states and simulated forces: δR, δT [23], dR, dT [24], R*, T*
-/// [39], norms and the state of largest norm, sliding and non-transmitting contacts of the simulated state.
-void compute_measures(const Packing& packing, ForceRanges& ranges);
+/// What follows from values, states and simulated forces: the last stage of an analysis. M contacts, K
+/// states. δ [23], d [24], R*, T* [39] are dimensionless.
+struct Measures {
+  // One entry a contact.
+  Eigen::VectorXd delta_R, delta_T;  ///< [23], +inf where unbounded.
+  Eigen::VectorXd d_R, d_T;          ///< [24], NaN where an extremal state is missing.
+  Eigen::VectorXd R_star,
+      T_star;             ///< [39], NaN where the simulated force is unknown or the range is a point.
+  Eigen::VectorXd norm;   ///< [K], ‖F‖ of each state, in the scene's unit of force.
+  int largest_norm = -1;  ///< The state of largest norm.
+  /// Sliding contacts of the simulated state, non-transmitting ones counted twice; −1 if unknown.
+  int sliding = -1;
+  int non_transmitting = -1;          ///< Non-transmitting contacts of the simulated state; −1 if unknown.
+  SampleEstimate sample_R, sample_T;  ///< δR and δT of all contacts, estimated from a sample.
+};
+
+/// An estimate from a sample is NaN if one of its ranges was not found, or there is none.
+Measures measure(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,
+                 const ExtremalStates& extremal, const Certified& certified);
 
 }  // namespace indet

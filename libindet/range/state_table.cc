@@ -33,19 +33,28 @@ int StateTable::add_ray(std::size_t block, const Eigen::VectorXd& x) {
   return static_cast<int>(rays_.size()) - 1;
 }
 
-void StateTable::write(ForceRanges& ranges) const {
-  const Eigen::Index components = polytope_.problem.edge_forces.rows();
-  ranges.states.resize(count(), components);
-  ranges.active.resize(count(), polytope_.dim);
+Rows<double> StateTable::states() const {
+  Rows<double> rows(count(), polytope_.problem.edge_forces.rows());
+  for (int i = 0; i < count(); ++i)
+    rows.row(i) = polytope_.problem.units.scene(states_[static_cast<std::size_t>(i)]).value();
+  return rows;
+}
+
+Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> StateTable::active() const {
+  Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(count(), polytope_.dim);
   for (int i = 0; i < count(); ++i) {
-    ranges.states.row(i) = polytope_.problem.units.scene(states_[static_cast<std::size_t>(i)]).value();
     const auto& active = active_[static_cast<std::size_t>(i)];
-    ranges.active.row(i) =
+    rows.row(i) =
         Eigen::Map<const Eigen::Array<std::int32_t, 1, Eigen::Dynamic>>(active.data(), polytope_.dim);
   }
-  ranges.rays.resize(static_cast<Eigen::Index>(rays_.size()), components);
+  return rows;
+}
+
+Rows<double> StateTable::rays() const {
+  Rows<double> rows(static_cast<Eigen::Index>(rays_.size()), polytope_.problem.edge_forces.rows());
   for (std::size_t i = 0; i < rays_.size(); ++i)
-    ranges.rays.row(static_cast<Eigen::Index>(i)) = rays_[i].transpose();
+    rows.row(static_cast<Eigen::Index>(i)) = rays_[i].transpose();
+  return rows;
 }
 
 void StateTable::append(const Eigen::VectorXd& x, int block, const Basis& basis) {

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "libindet/lp/vertex.h"
 #include "libindet/polytope/force_polytope.h"
-#include "libindet/range/force_ranges.h"
+#include "libindet/range/outcome.h"
 
 namespace indet {
 
@@ -26,8 +27,10 @@ class StateTable {
   /// The row of a direction x of one block.
   int add_ray(std::size_t block, const Eigen::VectorXd& x);
 
-  /// Fills `states`, `active` and `rays`.
-  void write(ForceRanges& ranges) const;
+  /// The rows so far: ExtremalStates::states, in the scene's unit of force, `active` and `rays`.
+  Rows<double> states() const;
+  Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> active() const;
+  Rows<double> rays() const;
 
  private:
   int count() const { return static_cast<int>(states_.size()); }

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "libindet/range/certify.h"
-#include "libindet/range/measures.h"
+#include "libindet/range/force_ranges.h"
 #include "libindet/verify/exact_check.h"
 
 namespace indet {
@@ -25,16 +25,16 @@ class States {
     return add({0, row}, ranges_.states.row(row).transpose(),
                std::vector<std::int32_t>(ranges_.active.row(row).begin(), ranges_.active.row(row).end()));
   }
-  void write(ForceRanges& ranges) const {
-    const Eigen::Index width = ranges.active.cols();
+  void write(ExtremalStates& extremal) const {
+    const Eigen::Index width = ranges_.active.cols();
     const auto count = static_cast<Eigen::Index>(rows_.size());
-    ranges.states.resize(count, 2 * ranges.value.rows());
-    ranges.active.setConstant(count, width, -1);
+    extremal.states.resize(count, 2 * ranges_.value.rows());
+    extremal.active.setConstant(count, width, -1);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      ranges.states.row(row) = rows_[k].transpose();
+      extremal.states.row(row) = rows_[k].transpose();
       for (Eigen::Index a = 0; a < std::min(width, static_cast<Eigen::Index>(active_[k].size())); ++a)
-        ranges.active(row, a) = active_[k][static_cast<std::size_t>(a)];
+        extremal.active(row, a) = active_[k][static_cast<std::size_t>(a)];
     }
   }
 
@@ -54,40 +54,53 @@ class States {
   std::vector<std::vector<std::int32_t>> active_;
 };
 
+/// The extrema as a search would have found them that returned what is stored.
+Extrema stored_extrema(const ForceRanges& ranges) {
+  Extrema extrema;
+  static_cast<ExtremalStates&>(extrema) = ranges;
+  static_cast<SearchWork&>(extrema) = ranges;
+  extrema.claim = ranges.outcome;
+  extrema.dual_residual = ranges.dual_residual;
+  extrema.ray_residual = ranges.primal_residual;
+  return extrema;
+}
+
 }  // namespace
 
-void adopt_exact(const Packing& packing, const ExactCheck& check, ForceRanges& ranges) {
+ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const ForceRanges& ranges) {
   if (ranges.status == PolytopeStatus::kEmpty) {
-    ranges.doubtful = !check.proves_emptiness;
-    return;
+    ForceRanges result = ranges;
+    result.doubtful = !check.proves_emptiness;
+    return result;
   }
-  ranges.doubtful = !check.passed() || check.rank != ranges.rank;
+  Extrema extrema = stored_extrema(ranges);
+  Enclosures enclosures{ranges.lower, ranges.upper, ranges.sensitivity,
+                        check.passed() && check.rank == ranges.rank};
   States states(check, ranges);
   for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
       const Proof proof = check.proof(i, column);
-      int& vertex = ranges.vertex(i, column);
-      Outcome& outcome = ranges.outcome(i, column);
+      std::int32_t& vertex = extrema.vertex(i, column);
+      Outcome& claim = extrema.claim(i, column);
       if (proof == Proof::kProven || proof == Proof::kRepaired) {
         const double lower = check.lower(i, column);
         const double upper = check.upper(i, column);
         const bool infinite = std::isinf(lower) && lower == upper;
-        outcome = infinite ? Outcome::kUnbounded : Outcome::kOptimal;
+        claim = infinite ? Outcome::kUnbounded : Outcome::kOptimal;
         vertex = infinite ? -1 : states.exact(check.vertex(i, column));
-        if (infinite) ranges.value(i, column) = lower;
-        ranges.lower(i, column) = lower;
-        ranges.upper(i, column) = upper;
-        ranges.dual_residual(i, column) = 0;
+        enclosures.lower(i, column) = lower;
+        enclosures.upper(i, column) = upper;
+        extrema.dual_residual(i, column) = 0;
       } else {
-        if (outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded) outcome = Outcome::kImprecise;
+        if (claim == Outcome::kOptimal || claim == Outcome::kUnbounded) claim = Outcome::kImprecise;
         if (vertex >= 0) vertex = states.stored(vertex);
       }
     }
   }
-  states.write(ranges);
-  ranges.objectives = ranges.certified = ranges.imprecise = ranges.failed = ranges.unbounded = 0;
-  certify(packing, ranges);
-  compute_measures(packing, ranges);
+  states.write(extrema);
+  ForceRanges result = assemble(packing, ranges, ranges, extrema, enclosures);
+  result.seconds = ranges.seconds;
+  return result;
 }
 
 }  // namespace indet

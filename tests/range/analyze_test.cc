@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -274,6 +276,29 @@ TEST(Analyze, SmallPilesAgreeWithEnumerationOfAllVertices) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     expect_as_enumerated(packing, analyze_by(kFormulations[seed % 3], packing));
     if (testing::Test::HasFailure()) break;
+  }
+}
+
+/// Two blocks, and samples of 1 to 4 contacts: what is settled counts the objectives that were asked for.
+TEST(Analyze, ProgressEndsWhenAllIsSettled) {
+  for (const double angle : {0.4, 1.4}) {  // 1.4: unbounded
+    const Packing packing = zoo::two_wedges(angle, 0.3, 0.9, 0.5);
+    for (int sample = 1; sample <= packing.contact_count(); ++sample) {
+      std::vector<std::int64_t> settled;
+      AnalyzeOptions options;
+      options.contacts = {ContactChoice::Kind::kSample, sample, 1, {}};
+      options.progress = [&](const Progress& progress) {
+        EXPECT_EQ(progress.total, 4 * sample);
+        settled.push_back(progress.done);
+        return true;
+      };
+      const ForceRanges ranges = analyze(packing, options);
+      EXPECT_EQ(ranges.blocks, 2);
+      ASSERT_FALSE(settled.empty());
+      EXPECT_TRUE(std::is_sorted(settled.begin(), settled.end()));
+      EXPECT_EQ(settled.back(), ranges.objectives) << sample;
+      if (sample == packing.contact_count()) EXPECT_LT(settled.front(), ranges.objectives) << "one block";
+    }
   }
 }
 

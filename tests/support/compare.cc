@@ -1,10 +1,13 @@
 #include "tests/support/compare.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
 
+#include "libindet/range/result_fields.h"
 #include "tests/support/oracle.h"
 
 namespace indet::test {
@@ -14,23 +17,49 @@ using testing::AssertionFailure;
 using testing::AssertionResult;
 using testing::AssertionSuccess;
 
-template <class Matrix>
-AssertionResult same_bits(const char* name, const Matrix& a, const Matrix& b) {
-  if (a.rows() != b.rows() || a.cols() != b.cols()) return AssertionFailure() << name << " differs in size";
-  for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    for (Eigen::Index j = 0; j < a.cols(); ++j) {
-      bool same = a(i, j) == b(i, j);
-      if constexpr (std::is_same_v<typename Matrix::Scalar, double>)
-        same = std::bit_cast<std::uint64_t>(a(i, j)) == std::bit_cast<std::uint64_t>(b(i, j));
-      if (!same) return AssertionFailure() << name << " differs at (" << i << ", " << j << ")";
+/// One field as bytes.
+struct FieldBytes {
+  std::string name;
+  Eigen::Index rows = 1, columns = 1;
+  std::string bytes;
+};
+
+std::vector<FieldBytes> bytes_of(const ForceRanges& ranges) {
+  std::vector<FieldBytes> all;
+  const auto add = [](FieldBytes& field, const auto* data, Eigen::Index count) {
+    field.bytes.append(reinterpret_cast<const char*>(data), sizeof(*data) * static_cast<std::size_t>(count));
+  };
+  visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {
+    FieldBytes& bytes = all.emplace_back(std::string(field.group) + "/" + field.name);
+    if constexpr (requires { value.rows(); }) {
+      bytes.rows = value.rows();
+      bytes.columns = value.cols();
+      const auto& plain = value.eval();
+      add(bytes, plain.data(), plain.size());
+    } else if constexpr (requires { value.data(); }) {
+      add(bytes, value.data(), static_cast<Eigen::Index>(value.size()));
+    } else if constexpr (requires { std::get<2>(value); }) {
+      std::apply([&](const auto&... numbers) { (add(bytes, &numbers, 1), ...); }, value);
+    } else {
+      add(bytes, &value, 1);
     }
-  }
-  return AssertionSuccess();
+  });
+  return all;
 }
 
-AssertionResult same_numbers(const char* name, const std::vector<double>& a, const std::vector<double>& b) {
-  return same_bits(name, Eigen::VectorXd(Eigen::VectorXd::Map(a.data(), static_cast<Eigen::Index>(a.size()))),
-                   Eigen::VectorXd(Eigen::VectorXd::Map(b.data(), static_cast<Eigen::Index>(b.size()))));
+/// How entries of a field read where they are compared within a tolerance: forces in units of mg.
+Eigen::MatrixXd numbers_of(const Field& field, const auto& value, double force_unit) {
+  const double unit = std::string_view(field.unit).starts_with("force") ? force_unit : 1;
+  if constexpr (requires { value.rows(); }) {
+    return value.template cast<double>().matrix() / unit;
+  } else if constexpr (requires { value.data(); }) {
+    return {};  // text: only of how a result was found
+  } else if constexpr (requires { std::get<2>(value); }) {
+    return std::apply([](const auto&... numbers) -> Eigen::MatrixXd { return Eigen::Vector3d(numbers...); },
+                      value);
+  } else {
+    return Eigen::MatrixXd::Constant(1, 1, static_cast<double>(value) / unit);
+  }
 }
 
 }  // namespace
@@ -59,66 +88,51 @@ AssertionResult same_entries(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
 }
 
 AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
-  const auto scalars = [](const ForceRanges& r) {
-    std::vector<double> all = {r.rank_gap,   r.smallest_accepted,     r.largest_rejected,   r.residual,
-                               r.force_unit, r.worst_primal_residual, r.worst_dual_residual};
-    for (const std::int64_t count :
-         {static_cast<std::int64_t>(r.status), std::int64_t{r.unknowns}, std::int64_t{r.equations},
-          std::int64_t{r.rank}, std::int64_t{r.nullity}, std::int64_t{r.dim}, std::int64_t{r.blocks},
-          std::int64_t{r.rank_ambiguous}, std::int64_t{r.sliding}, std::int64_t{r.non_transmitting},
-          std::int64_t{r.largest_norm}, r.objectives, r.solves, r.pivots, r.determined, r.certified,
-          r.imprecise, r.failed, r.unbounded})
-      all.push_back(static_cast<double>(count));
-    return all;
-  };
-  if (a.formulation != b.formulation) return AssertionFailure() << "another formulation";
-  for (const AssertionResult& result : {same_numbers("a scalar", scalars(a), scalars(b)),
-                                        same_bits("value", a.value, b.value),
-                                        same_bits("lower", a.lower, b.lower),
-                                        same_bits("upper", a.upper, b.upper),
-                                        same_bits("outcome", a.outcome, b.outcome),
-                                        same_bits("primal_residual", a.primal_residual, b.primal_residual),
-                                        same_bits("dual_residual", a.dual_residual, b.dual_residual),
-                                        same_bits("sensitivity", a.sensitivity, b.sensitivity),
-                                        same_bits("unique", a.unique, b.unique),
-                                        same_bits("vertex", a.vertex, b.vertex),
-                                        same_bits("delta_R", a.delta_R, b.delta_R),
-                                        same_bits("delta_T", a.delta_T, b.delta_T),
-                                        same_bits("d_R", a.d_R, b.d_R),
-                                        same_bits("d_T", a.d_T, b.d_T),
-                                        same_bits("R_star", a.R_star, b.R_star),
-                                        same_bits("T_star", a.T_star, b.T_star),
-                                        same_bits("states", a.states, b.states),
-                                        same_bits("norm", a.norm, b.norm),
-                                        same_bits("active", a.active, b.active),
-                                        same_bits("ray", a.ray, b.ray),
-                                        same_bits("rays", a.rays, b.rays),
-                                        same_bits("motion", a.motion, b.motion)}) {
-    if (!result) return result;
+  const std::vector<FieldBytes> first = bytes_of(a);
+  const std::vector<FieldBytes> second = bytes_of(b);
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const FieldBytes& x = first[k];
+    const FieldBytes& y = second[k];
+    if (x.rows != y.rows || x.columns != y.columns || x.bytes.size() != y.bytes.size())
+      return AssertionFailure() << x.name << " differs in size";
+    const auto [here, there] = std::mismatch(x.bytes.begin(), x.bytes.end(), y.bytes.begin());
+    if (here != x.bytes.end())
+      return AssertionFailure() << x.name << " (" << x.rows << " × " << x.columns << ") differs at byte "
+                                << here - x.bytes.begin() << " of " << x.bytes.size();
   }
   return AssertionSuccess();
 }
 
 namespace {
 
-/// `view` makes of a state what is compared.
+/// Fields that are the same whatever state is taken.
+AssertionResult same_answers(const ForceRanges& a, const ForceRanges& b, double tolerance) {
+  std::vector<Eigen::MatrixXd> expected;
+  const auto is_compared = [](const Field& field) {
+    return field.source == FieldSource::kProblem || field.source == FieldSource::kAnswer;
+  };
+  visit_fields(a, [&](const Field& field, const auto& value) {
+    if (is_compared(field)) expected.push_back(numbers_of(field, value, a.force_unit));
+  });
+  AssertionResult result = AssertionSuccess();
+  std::size_t next = 0;
+  visit_fields(b, [&](const Field& field, const auto& value) {
+    if (!is_compared(field)) return;
+    const Eigen::MatrixXd found = numbers_of(field, value, b.force_unit);
+    const auto same = same_entries(expected[next++], found, tolerance);
+    if (result && !same) result = AssertionFailure() << same.message() << " in " << field.name;
+  });
+  return result;
+}
+
+/// The states that attain the values; `view` makes of a state what is compared.
 template <class View>
-AssertionResult same_ranges_by(const ForceRanges& a, const ForceRanges& b, double tolerance, View view) {
-  if (a.status != b.status)
-    return AssertionFailure() << to_string(a.status) << " against " << to_string(b.status);
-  if (a.dim != b.dim) return AssertionFailure() << "dim " << a.dim << " against " << b.dim;
-  if (a.nullity != b.nullity)
-    return AssertionFailure() << "nullity " << a.nullity << " against " << b.nullity;
-  if (a.outcome.rows() != b.outcome.rows()) return AssertionFailure() << "other numbers of contacts";
-  const auto in_units = [](const ForceRanges& r) { return Eigen::MatrixXd(r.value.matrix() / r.force_unit); };
-  if (auto result = same_entries(in_units(a), in_units(b), tolerance); !result) return result << " in value";
-  for (Eigen::Index i = 0; i < a.outcome.rows(); ++i) {
+AssertionResult same_states(const ForceRanges& a, const ForceRanges& b, double tolerance, View view) {
+  for (Eigen::Index i = 0; i < a.vertex.rows(); ++i) {
     for (Eigen::Index j = 0; j < 4; ++j) {
       const auto where = [&] {
         return " of contact " + std::to_string(i) + ", " + to_string(static_cast<Column>(j));
       };
-      if (a.outcome(i, j) != b.outcome(i, j)) return AssertionFailure() << "outcome" << where();
-      if (a.unique(i, j) != b.unique(i, j)) return AssertionFailure() << "unique" << where();
       const int first = a.vertex(i, j);
       const int second = b.vertex(i, j);
       if ((first < 0) != (second < 0)) return AssertionFailure() << "a state is missing" << where();
@@ -131,51 +145,94 @@ AssertionResult same_ranges_by(const ForceRanges& a, const ForceRanges& b, doubl
   return AssertionSuccess();
 }
 
+/// What is measured on the states.
+AssertionResult same_state_measures(const ForceRanges& a, const ForceRanges& b, double tolerance) {
+  if (auto same = same_entries(a.d_R, b.d_R, tolerance); !same) return same << " in d_R";
+  if (auto same = same_entries(a.d_T, b.d_T, tolerance); !same) return same << " in d_T";
+  const auto norms = [](const ForceRanges& r) {  // by objective, as the order of the states is arbitrary
+    Eigen::MatrixXd norm = Eigen::MatrixXd::Constant(r.vertex.rows() + 1, 4, -1);
+    for (Eigen::Index i = 0; i < r.vertex.rows(); ++i) {
+      for (Eigen::Index j = 0; j < 4; ++j) {
+        if (r.vertex(i, j) >= 0) norm(i, j) = r.norm[r.vertex(i, j)] / r.force_unit;
+      }
+    }
+    if (r.largest_norm >= 0) norm(r.vertex.rows(), 0) = r.norm[r.largest_norm] / r.force_unit;
+    return norm;
+  };
+  if (auto same = same_entries(norms(a), norms(b), tolerance); !same) return same << " in norm";
+  return AssertionSuccess();
+}
+
 }  // namespace
 
 AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance) {
-  return same_ranges_by(a, b, tolerance, [](const Eigen::RowVectorXd& state) { return state; });
+  if (auto same = same_answers(a, b, tolerance); !same) return same;
+  const auto whole = [](const Eigen::RowVectorXd& state) { return state; };
+  if (auto same = same_states(a, b, tolerance, whole); !same) return same;
+  return same_state_measures(a, b, tolerance);
 }
 
 AssertionResult same_ranges_and_weights(const ForceRanges& a, const ForceRanges& b, double tolerance) {
-  return same_ranges_by(a, b, tolerance, [](const Eigen::RowVectorXd& state) {
+  if (auto same = same_answers(a, b, tolerance); !same) return same;
+  return same_states(a, b, tolerance, [](const Eigen::RowVectorXd& state) {
     return Eigen::RowVectorXd::Constant(1, state(Eigen::seq(0, Eigen::last, 2)).sum());
   });
 }
 
 ForceRanges permuted(const ForceRanges& ranges, const std::vector<int>& contacts) {
   ForceRanges result = ranges;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const auto to = static_cast<Eigen::Index>(k);
-    const Eigen::Index from = contacts[k];
-    result.value.row(to) = ranges.value.row(from);
-    result.outcome.row(to) = ranges.outcome.row(from);
-    result.unique.row(to) = ranges.unique.row(from);
-    result.vertex.row(to) = ranges.vertex.row(from);
-    if (ranges.states.size() > 0) result.states.middleCols(2 * to, 2) = ranges.states.middleCols(2 * from, 2);
-  }
+  visit_fields(result, [&]<class Value>(const Field& field, Value&& value) {
+    if constexpr (requires { value.rows(); }) {
+      const typename std::decay_t<Value>::PlainObject before = value;
+      for (std::size_t k = 0; k < contacts.size() && before.size() > 0; ++k) {
+        const auto to = static_cast<Eigen::Index>(k);
+        const Eigen::Index from = contacts[k];
+        if (field.rows == Extent::kContacts) value.row(to) = before.row(from);
+        if (field.columns == Extent::kForces) value.middleCols(2 * to, 2) = before.middleCols(2 * from, 2);
+      }
+    }
+  });
   return result;
 }
 
+namespace {
+
+/// A real number or a table of them.
+template <class Value>
+constexpr bool has_reals() {
+  using Plain = std::decay_t<Value>;
+  if constexpr (requires { typename Plain::PlainObject; })
+    return std::is_same_v<typename Plain::Scalar, double>;
+  return std::is_same_v<Plain, double>;
+}
+
+}  // namespace
+
 ForceRanges rescaled(const ForceRanges& ranges, double force) {
   ForceRanges result = ranges;
-  result.force_unit *= force;
-  result.residual = ranges.residual;
-  for (auto* table : {&result.value, &result.lower, &result.upper, &result.sensitivity}) *table *= force;
-  result.states *= force;
-  result.norm *= force;
+  visit_fields(result, [&]<class Value>(const Field& field, Value&& value) {
+    if constexpr (has_reals<Value>()) {
+      if (std::string_view(field.unit).starts_with("force")) value *= force;
+    }
+  });
   return result;
 }
 
 ForceRanges mirrored(const ForceRanges& ranges) {
   ForceRanges result = ranges;
-  const auto swap = [](auto& table) { table.col(kMinT).swap(table.col(kMaxT)); };
-  swap(result.value);
-  swap(result.outcome);
-  swap(result.unique);
-  swap(result.vertex);
-  result.value.rightCols<2>() *= -1;
-  for (Eigen::Index k = 1; k < result.states.cols(); k += 2) result.states.col(k) *= -1;
+  visit_fields(result, [&]<class Value>(const Field& field, Value&& value) {
+    if constexpr (requires { value.cols(); }) {
+      if (field.columns == Extent::kColumns) value.col(kMinT).swap(value.col(kMaxT));
+      if constexpr (has_reals<Value>()) {
+        for (Eigen::Index k = 1; k < value.cols() && field.columns == Extent::kForces; k += 2)
+          value.col(k) *= -1;
+      }
+    }
+  });
+  result.value.col(kMinT).swap(result.value.col(kMaxT));
+  result.lower.rightCols<2>().swap(result.upper.rightCols<2>());
+  for (auto* table : {&result.value, &result.lower, &result.upper}) table->rightCols<2>() *= -1;
+  result.T_star = 1 - result.T_star.array();
   return result;
 }
 

@@ -15,11 +15,14 @@ bool near(double a, double b, double tolerance);
 /// The same entries, sizes included, in the sense of near(). Names the first that differs.
 testing::AssertionResult same_entries(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance);
 
+// The following go through the list of fields (libindet/range/result_fields.h), so that none is forgotten.
+
 /// Every field but the timings has the same bytes.
 testing::AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b);
 
-/// Values (in force units), outcomes, unique flags and the extremal states of all objectives agree within
-/// `tolerance` relative to max(1, |value|) mg. (Numbers of states may differ.)
+/// All fields agree that follow from the problem, the polytope, or the states that attain the values
+/// (FieldSource), within `tolerance` relative to max(1, |value|), forces in mg. (Numbers of states may
+/// differ.)
 testing::AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance);
 
 /// The same, but of the extremal states only the total normal force: what must agree where several states of
@@ -28,8 +31,8 @@ testing::AssertionResult same_ranges_and_weights(const ForceRanges& a, const For
                                                  double tolerance);
 
 /// How a ForceRanges would read with the contacts in another order (contact k of the result is contacts[k]),
-/// in another unit of force, or with all tangential forces reversed. Values, outcomes, unique flags, vertices
-/// and states only.
+/// in another unit of force, or with all tangential forces reversed. Half-planes (`active`), motions and
+/// estimates from samples stay as they are.
 ForceRanges permuted(const ForceRanges& ranges, const std::vector<int>& contacts);
 ForceRanges rescaled(const ForceRanges& ranges, double force);
 ForceRanges mirrored(const ForceRanges& ranges);

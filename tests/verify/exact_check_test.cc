@@ -94,7 +94,7 @@ TEST(AdoptExact, StoresTheExactValuesRoundedOnce) {
     if (ranges.status == PolytopeStatus::kEmpty || ranges.doubtful) continue;
     const ExactCheck check = check_exactly(scene.packing, ranges);
     EXPECT_TRUE(check.passed());
-    adopt_exact(scene.packing, check, ranges);
+    ranges = adopt_exact(scene.packing, check, ranges);
     EXPECT_EQ(ranges.certified, ranges.objectives);
     oracle::RationalSimplex exact(scene.packing);
     for (int i = 0; i < scene.packing.contact_count(); ++i) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+
+namespace indet {
+
+/// The equilibrium problem of a packing and its polytope F in numbers: the first stage of an analysis.
+/// M contacts, N disks. Fields start at impossible values.
+struct ProblemSummary {
+  PolytopeStatus status = PolytopeStatus::kEmpty;
+  int unknowns = -1;   ///< Columns of c that the scene needs: 2 a contact, 1 where μ = 0.
+  int equations = -1;  ///< Rows of c that the scene needs.
+  int rank = -1;       ///< rank c.
+  int nullity = -1;    ///< d = dim ker c ≥ 2M − 3N [8].
+  int dim = -1;        ///< dim F; −1 when F is empty.
+  int blocks = -1;     ///< Independent parts of F.
+  bool rank_ambiguous = false;
+  /// Smallest accepted over largest rejected singular value (estimates), and these two.
+  double rank_gap = std::numeric_limits<double>::quiet_NaN();
+  double smallest_accepted = std::numeric_limits<double>::quiet_NaN();
+  double largest_rejected = std::numeric_limits<double>::quiet_NaN();
+  double force_unit = std::numeric_limits<double>::quiet_NaN();  ///< mg in the scene's units.
+  /// [N, 3] virtual velocity x, y and r·ω of each disk when F is empty.
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
+};
+
+ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope);
+
+}  // namespace indet

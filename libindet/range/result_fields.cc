@@ -1,0 +1,45 @@
+#include "libindet/range/result_fields.h"
+
+namespace indet {
+
+const char* to_string(Extent extent) {
+  switch (extent) {
+    case Extent::kOne:
+      return "1";
+    case Extent::kComponents:
+      return "3";
+    case Extent::kColumns:
+      return "4";
+    case Extent::kDisks:
+      return "N";
+    case Extent::kContacts:
+      return "M";
+    case Extent::kForces:
+      return "2M";
+    case Extent::kStates:
+      return "K";
+    case Extent::kRays:
+      return "Q";
+    case Extent::kActive:
+      return "d";
+  }
+  return "?";
+}
+
+bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_count) {
+  switch (presence) {
+    case Presence::kAlways:
+      return true;
+    case Presence::kSubset:
+      return ranges.choice != ContactChoice::Kind::kAll;
+    case Presence::kSample:
+      return ranges.choice == ContactChoice::Kind::kSample;
+    case Presence::kPaper:
+      return ranges.method == Method::kPivotingPaper;
+    case Presence::kWhereRows:
+      return row_count > 0;
+  }
+  return true;
+}
+
+}  // namespace indet

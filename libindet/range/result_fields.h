@@ -1,0 +1,267 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <tuple>
+
+#include "libindet/range/force_ranges.h"
+
+namespace indet {
+
+/// How many: N disks, M contacts, K extremal states, Q rays, d = dim F.
+enum class Extent : std::uint8_t {
+  kOne,
+  kComponents,  ///< 3: x, y, rotation
+  kColumns,     ///< 4: R_min, R_max, T_min, T_max
+  kDisks,       ///< N
+  kContacts,    ///< M
+  kForces,      ///< 2M: R_1, T_1, …, R_M, T_M
+  kStates,      ///< K
+  kRays,        ///< Q
+  kActive       ///< d
+};
+const char* to_string(Extent extent);  ///< "1", "3", "4", "N", "M", "2M", "K", "Q", "d".
+
+/// When a field has something to say; else files leave it out.
+enum class Presence : std::uint8_t {
+  kAlways,
+  kSubset,    ///< where not all contacts were asked for
+  kSample,    ///< where a sample of contacts was
+  kPaper,     ///< where the method is kPivotingPaper
+  kWhereRows  ///< where the table has rows
+};
+
+/// What a field follows from, and so where it must be the same.
+enum class FieldSource : std::uint8_t {
+  kProblem,   ///< the packing and the request: exactly the same, whatever the method
+  kAnswer,    ///< the polytope: the same within rounding
+  kState,     ///< the same where the method takes the same of several states that attain a value
+  kProof,     ///< one of several that would do
+  kRounding,  ///< the roundings of a computation
+  kWork       ///< how the result was found
+};
+
+/// One field of the results, and what is told of it everywhere: in files, JSON, tables, tests. `group` and
+/// `name` are those of the HDF5 object, a dataset where the shape is not 1 × 1 and otherwise an attribute of
+/// `group`. `unit` is "1" for pure numbers and text, "mg" for residuals in the packing's unit of force, and
+/// "force" for the scene's.
+struct Field {
+  const char* group;
+  const char* name;
+  const char* unit;
+  const char* meaning;  ///< ASCII: the long_name of a dataset
+  FieldSource source;
+  Extent rows = Extent::kOne;
+  Extent columns = Extent::kOne;
+  Presence presence = Presence::kAlways;
+
+  bool is_dataset() const { return rows != Extent::kOne; }
+};
+
+/// Whether a field has something to say; of tables `row_count` is the number of rows.
+bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_count);
+
+namespace result_fields {
+
+/// Calls visit(Field, value) for each field of a part, in the order of files. What decides about the presence
+/// of others comes first. `Part` may be const; values are references, views of columns, or tuples of
+/// references.
+template <class Part, class Visit>
+void visit_problem(Part& r, Visit& visit) {
+  const auto attribute = [&](const char* name, const char* meaning, auto& value,
+                             FieldSource source = FieldSource::kAnswer, const char* unit = "1") {
+    visit(Field{"/equilibrium", name, unit, meaning, source}, value);
+  };
+  attribute("status", "what the polytope is: bounded, unbounded, point, empty", r.status);
+  attribute("unknowns", "unknown forces", r.unknowns, FieldSource::kProblem);
+  attribute("equations", "equations of equilibrium", r.equations, FieldSource::kProblem);
+  attribute("rank", "rank of the equations", r.rank);
+  attribute("nullity", "dimension of the kernel", r.nullity);
+  attribute("dim", "dimension of the polytope, -1 if it is empty", r.dim);
+  attribute("blocks", "independent parts of the polytope", r.blocks);
+  attribute("rank_ambiguous", "1 if the rank lies within rounding", r.rank_ambiguous);
+  attribute("rank_gap", "smallest accepted over largest rejected singular value, estimated", r.rank_gap,
+            FieldSource::kRounding);
+  attribute("smallest_accepted", "smallest singular value that counts, estimated", r.smallest_accepted,
+            FieldSource::kRounding);
+  attribute("largest_rejected", "largest singular value that counts as zero, estimated", r.largest_rejected,
+            FieldSource::kRounding);
+  attribute("force_unit", "mg, the unit of force of residuals and measures", r.force_unit,
+            FieldSource::kProblem, "force");
+  visit(Field{"/equilibrium", "motion", "1",
+              "virtual velocity x, y and r*omega with which the disks move where no state is admissible",
+              FieldSource::kProof, Extent::kDisks, Extent::kComponents, Presence::kWhereRows},
+        r.motion);
+}
+
+template <class Part, class Visit>
+void visit_request(Part& r, Visit& visit) {
+  const auto attribute = [&](const char* name, const char* meaning, Presence presence, auto& value) {
+    visit(Field{"/ranges", name, "1", meaning, FieldSource::kProblem, Extent::kOne, Extent::kOne, presence},
+          value);
+  };
+  attribute("contacts", "which contacts were asked for: list, sample", Presence::kSubset, r.choice);
+  attribute("requested", "number of contacts that were asked for", Presence::kSubset, r.requested);
+  attribute("sample_seed", "seed that drew the sample", Presence::kSample, r.sample_seed);
+}
+
+template <class Part, class Visit>
+void visit_certified(Part& r, Visit& visit) {
+  const auto column = [&](Column c, const char* meaning) {
+    visit(Field{"/ranges", to_string(c), "force", meaning, FieldSource::kAnswer, Extent::kContacts},
+          r.value.col(c));
+  };
+  column(kMinR, "smallest normal force, inf where unbounded, NaN where not found");
+  column(kMaxR, "largest normal force, inf where unbounded, NaN where not found");
+  column(kMinT, "smallest tangential force, inf where unbounded, NaN where not found");
+  column(kMaxT, "largest tangential force, inf where unbounded, NaN where not found");
+  const auto table = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                         auto& value) {
+    visit(Field{"/ranges", name, unit, meaning, source, Extent::kContacts, Extent::kColumns}, value);
+  };
+  table("lower", "force", "lower end of the enclosure of R_min, R_max, T_min, T_max", FieldSource::kAnswer,
+        r.lower);
+  table("upper", "force", "upper end of the enclosure of R_min, R_max, T_min, T_max", FieldSource::kAnswer,
+        r.upper);
+  table("sensitivity", "force/radian",
+        "how far the value moves at most, to first order, when every normal turns, per angle",
+        FieldSource::kProof, r.sensitivity);
+  table("primal_residual", "mg", "violation of equilibrium and contact conditions by the extremal state",
+        FieldSource::kRounding, r.primal_residual);
+  table("dual_residual", "1", "largest reduced cost of the wrong sign", FieldSource::kRounding,
+        r.dual_residual);
+  table("outcome", "1", "what became of R_min, R_max, T_min, T_max", FieldSource::kAnswer, r.outcome);
+  const auto attribute = [&](const char* name, const char* meaning, FieldSource source, auto& value) {
+    visit(Field{"/equilibrium", name, "1", meaning, source}, value);
+  };
+  attribute("doubtful", "1 if some decision about the polytope lies within rounding", FieldSource::kAnswer,
+            r.doubtful);
+  attribute("objectives", "values that were asked for", FieldSource::kProblem, r.objectives);
+  attribute("certified", "values that are certain: optimal or unbounded", FieldSource::kAnswer, r.certified);
+  attribute("unbounded", "of these, unbounded ones", FieldSource::kAnswer, r.unbounded);
+  attribute("imprecise", "values that are uncertain", FieldSource::kAnswer, r.imprecise);
+  attribute("failed", "values that were not found", FieldSource::kAnswer, r.failed);
+  visit(Field{"/equilibrium", "residual", "mg", "largest imbalance of the extremal states",
+              FieldSource::kRounding},
+        r.residual);
+  attribute("worst_primal_residual", "largest entry of primal_residual", FieldSource::kRounding,
+            r.worst_primal_residual);
+  attribute("worst_dual_residual", "largest entry of dual_residual", FieldSource::kRounding,
+            r.worst_dual_residual);
+}
+
+template <class Part, class Visit>
+void visit_extremal(Part& r, Visit& visit) {
+  visit(Field{"/extremal", "states", "force", "extremal states (R_1, T_1, ..., R_M, T_M), each once",
+              FieldSource::kState, Extent::kStates, Extent::kForces},
+        r.states);
+  visit(Field{"/extremal", "active", "1",
+              "half-planes that define the state: 2a for mu R + T >= 0, 2a+1 for mu R - T >= 0",
+              FieldSource::kProof, Extent::kStates, Extent::kActive},
+        r.active);
+  visit(Field{"/extremal", "rays", "1",
+              "directions (R_1, T_1, ..., R_M, T_M) in which forces can be added without limit",
+              FieldSource::kProof, Extent::kRays, Extent::kForces, Presence::kWhereRows},
+        r.rays);
+  const auto table = [&](const char* name, const char* meaning, FieldSource source, auto& value) {
+    visit(Field{"/ranges", name, "1", meaning, source, Extent::kContacts, Extent::kColumns}, value);
+  };
+  table("unique", "1 if only one state attains the value", FieldSource::kAnswer, r.unique);
+  table("vertex", "row of /extremal/states that attains the value, -1 for none", FieldSource::kState,
+        r.vertex);
+  table("ray", "row of /extremal/rays along which the value grows without limit, -1 for none",
+        FieldSource::kProof, r.ray);
+}
+
+template <class Part, class Visit>
+void visit_measures(Part& r, Visit& visit) {
+  const auto column = [&](const char* name, const char* meaning, FieldSource source, auto& value) {
+    visit(Field{"/ranges", name, "1", meaning, source, Extent::kContacts}, value);
+  };
+  column("delta_R", "local indeterminacy of the normal force, inf where unbounded", FieldSource::kAnswer,
+         r.delta_R);
+  column("delta_T", "local indeterminacy of the tangential force, inf where unbounded", FieldSource::kAnswer,
+         r.delta_T);
+  column("d_R", "global indeterminacy of the normal force, NaN where a state is missing", FieldSource::kState,
+         r.d_R);
+  column("d_T", "global indeterminacy of the tangential force, NaN where a state is missing",
+         FieldSource::kState, r.d_T);
+  column("R_star", "place of the simulated normal force in its range, NaN if unknown", FieldSource::kAnswer,
+         r.R_star);
+  column("T_star", "place of the simulated tangential force in its range, NaN if unknown",
+         FieldSource::kAnswer, r.T_star);
+  visit(Field{"/extremal", "norm", "force", "Euclidean norm of the state", FieldSource::kState,
+              Extent::kStates},
+        r.norm);
+  visit(Field{"/extremal", "largest_norm", "1", "row of the state of largest norm, -1 for none",
+              FieldSource::kState},
+        r.largest_norm);
+  visit(Field{"/equilibrium", "sliding", "1",
+              "sliding contacts of the simulated state, non-transmitting ones twice, -1 if unknown",
+              FieldSource::kProblem},
+        r.sliding);
+  visit(Field{"/equilibrium", "non_transmitting", "1",
+              "non-transmitting contacts of the simulated state, -1 if unknown", FieldSource::kProblem},
+        r.non_transmitting);
+  const auto estimate = [&](const char* name, const char* meaning, auto&& value) {
+    visit(Field{"/ranges", name, "1", meaning, FieldSource::kAnswer, Extent::kOne, Extent::kOne,
+                Presence::kSample},
+          value);
+  };
+  const char* const mean = "mean over all contacts as the sample tells it: in the sample, lowest, highest";
+  const char* const band = "largest distance of the sample's distribution from that of all contacts";
+  estimate("mean_delta_R", mean, std::tie(r.sample_R.mean, r.sample_R.low, r.sample_R.high));
+  estimate("band_delta_R", band, r.sample_R.band);
+  estimate("mean_delta_T", mean, std::tie(r.sample_T.mean, r.sample_T.low, r.sample_T.high));
+  estimate("band_delta_T", band, r.sample_T.band);
+}
+
+template <class Part, class Visit>
+void visit_work(Part& r, Visit& visit) {
+  const auto attribute = [&](const char* name, const char* meaning, Presence presence, auto& value) {
+    visit(Field{"/provenance/work", name, "1", meaning, FieldSource::kWork, Extent::kOne, Extent::kOne,
+                presence},
+          value);
+  };
+  visit(Field{"/equilibrium", "determined", "1", "values that are the same in every state",
+              FieldSource::kAnswer},
+        r.determined);
+  attribute("method", "how the extremal states were found", Presence::kAlways, r.method);
+  attribute("formulation", "of the linear programs, empty where there were none", Presence::kAlways,
+            r.formulation);
+  attribute("solves", "searches for an optimum", Presence::kAlways, r.solves);
+  attribute("pivots", "steps of these", Presence::kAlways, r.pivots);
+  // In the order of InteriorEnd and of WalkEnd.
+  constexpr std::array<const char*, kInteriorEnds> kStarts = {"start_simulated", "start_unknown",
+                                                              "start_outside", "start_tight_corner"};
+  constexpr std::array<const char*, kWalkEnds> kEnds = {"walks_none_better",      "walks_more_active",
+                                                        "walks_fewer_active",     "walks_directions_lost",
+                                                        "walks_edge_without_end", "walks_step_limit"};
+  for (std::size_t end = 0; end < kStarts.size(); ++end)
+    attribute(kStarts[end], "blocks by their start", Presence::kPaper, r.paper.starts[end]);
+  for (std::size_t end = 0; end < kEnds.size(); ++end)
+    attribute(kEnds[end], "walks by their end", Presence::kPaper, r.paper.walks[end]);
+  attribute("sliding_left", "active constraints left on the way to the interior", Presence::kPaper,
+            r.paper.sliding_left);
+  attribute("extremal_points", "extremal points passed", Presence::kPaper, r.paper.points);
+  attribute("unexpected_points", "of these, with more active constraints than dimensions", Presence::kPaper,
+            r.paper.unexpected);
+  attribute("neighbours", "neighbours looked at", Presence::kPaper, r.paper.neighbours);
+}
+
+}  // namespace result_fields
+
+/// Calls visit(Field, value) for every field of the results but the timings, each once. This is the one list
+/// of them: HDF5 files, JSON, tables of contacts and the comparisons of tests are made from it. `Ranges` is
+/// ForceRanges, const or not; `visit` takes values as forwarding references.
+template <class Ranges, class Visit>
+void visit_fields(Ranges& ranges, Visit&& visit) {
+  result_fields::visit_request(ranges, visit);
+  result_fields::visit_problem(ranges, visit);
+  result_fields::visit_certified(ranges, visit);
+  result_fields::visit_extremal(ranges, visit);
+  result_fields::visit_measures(ranges, visit);
+  result_fields::visit_work(ranges, visit);
+}
+
+}  // namespace indet
