@@ -31,6 +31,7 @@ constexpr int kFirstSweeps = 500;
 PerturbSample draw(const Packing& packing, const Eigen::VectorXd& from, int index,
                    const PerturbOptions& options) {
   Random random(options.seed, static_cast<std::uint64_t>(index));
+  const double unit = packing.force_units().internal_in_weights();
   StaticForces solved{.forces = perturbed(from, options.width, random)};
   Polished polished;
   PerturbSample sample;
@@ -42,14 +43,14 @@ PerturbSample draw(const Packing& packing, const Eigen::VectorXd& from, int inde
     solved = solve_statics(packing, solved.forces, part);
     polished = polish(packing, solved.forces, options.polish);
     sample.sweeps += solved.sweeps;
-    const bool close = polished.balanced && polished.distance <= options.distance;
+    const bool close = polished.balanced && polished.distance <= options.distance * unit;
     sample.converged = close || solved.converged;
   }
   sample.forces = polished.forces;
   sample.raw_residual = solved.residual;
   sample.residual = polished.residual;
   sample.cone_violation = polished.cone_violation;
-  sample.accepted = std::max(sample.residual, sample.cone_violation) <= options.accept_residual;
+  sample.accepted = std::max(sample.residual, sample.cone_violation) <= options.accept_residual * unit;
   return sample;
 }
 

@@ -164,7 +164,7 @@ struct Attempt {
 
 Attempt attempt(const Packing& packing, const Eigen::VectorXd& raw, std::vector<Status> status,
                 const PolishOptions& options) {
-  const double unit = packing.force_unit();
+  const double unit = packing.internal_force_unit();
   const int contacts = packing.contact_count();
   const auto residual = [&](const Eigen::VectorXd& forces) { return imbalance(packing, forces, unit); };
   Attempt run;
@@ -220,7 +220,8 @@ double cone_violation(const Packing& packing, const Eigen::VectorXd& forces) {
 }
 
 Polished polish(const Packing& packing, const Eigen::VectorXd& raw, const PolishOptions& options) {
-  const double unit = packing.force_unit();
+  const ForceUnits units = packing.force_units();
+  const double unit = units.internal_in_scene();
   const int contacts = packing.contact_count();
   const Eigen::VectorXd scaled = raw / unit;
   std::vector<Status> sliding(contacts);
@@ -251,10 +252,10 @@ Polished polish(const Packing& packing, const Eigen::VectorXd& raw, const Polish
   }
   result.residual = balance_residual(packing, result.forces);
   result.cone_violation = cone_violation(packing, result.forces);
-  result.distance = (run.forces - scaled).norm();
+  result.distance = units.weights(InternalForce((run.forces - scaled).norm())).value();
   if (!run.settled) {
     result.reason = fmt::format("the active set did not settle in {} rounds", run.rounds);
-  } else if (!(result.residual <= options.residual)) {
+  } else if (!(result.residual <= options.residual * units.internal_in_weights())) {
     result.reason = fmt::format("the contacts cannot balance the disks: {:.2e} mg remain", result.residual);
   } else {
     result.balanced = true;

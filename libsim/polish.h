@@ -15,18 +15,18 @@ namespace indet::sim {
 /// where contacts that slide in the raw state (|T| = μR) stay sliding: T = ±μR, one unknown instead of two.
 /// The equality-constrained problem is solved through its normal equations (3N × 3N, sparse Cholesky with
 /// refinement); cone conditions that the solution violates join an active set (contact opened: R = T = 0; or
-/// sliding) until none is violated. Forces are in units of force (mg) throughout, torques are divided by the
-/// disk's radius.
+/// sliding) until none is violated. Forces are in the internal unit of the packing throughout, torques are
+/// divided by the disk's radius.
 ///
 /// It stands in for the last decades of a Gauss–Seidel iteration, which needs 1e4–1e5 sweeps for them.
 struct PolishOptions {
   /// A raw contact slides if μR − |T| ≤ sliding · max(R, 1). Gauss–Seidel puts sliding contacts on the limit
   /// exactly; springs leave the rounding of their stretch.
   double sliding = 1e-9;
-  /// A contact transmits force if R > transmitting (mg); the others leave the packing.
+  /// A contact transmits force if R > transmitting (internal unit); the others leave the packing.
   double transmitting = 1e-9;
   int max_rounds = 50;      ///< Of the active set.
-  double residual = 1e-12;  ///< Balanced means at most this (mg).
+  double residual = 1e-12;  ///< Balanced means at most this (internal unit).
 };
 
 struct Polished {

@@ -52,7 +52,7 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
 
 StaticForces solve_statics(const Packing& packing, const Eigen::VectorXd& initial,
                            const StaticOptions& options) {
-  const double unit = packing.force_unit();
+  const ForceUnits units = packing.force_units();
   std::vector<SolverContact> contacts;
   for (int i = 0; i < packing.contact_count(); ++i) {
     SolverContact contact = solver_contact(packing, packing[ContactId(i)]);
@@ -67,11 +67,11 @@ StaticForces solve_statics(const Packing& packing, const Eigen::VectorXd& initia
     std::vector<SolverBody> bodies = start;
     apply_impulses(contacts, bodies);
     const auto left = static_cast<int>(options.max_sweeps - result.sweeps);
-    const SweepReport report =
-        solver.solve(contacts, bodies,
-                     {.max_sweeps = std::min(left, kSweepsPerRound), .tolerance = options.tolerance * unit});
+    const SweepReport report = solver.solve(contacts, bodies,
+                                            {.max_sweeps = std::min(left, kSweepsPerRound),
+                                             .tolerance = options.tolerance * units.internal_in_scene()});
     result.sweeps += report.sweeps;
-    result.change = report.change / unit;
+    result.change = report.change / units.weight_in_scene();
     result.converged = report.converged;
     if (contacts.empty()) break;
   }

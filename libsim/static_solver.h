@@ -16,8 +16,8 @@ namespace indet::sim {
 /// its polytope; which one the iteration finds depends on where it starts, which is what perturb-and-resolve
 /// uses.
 struct StaticOptions {
-  /// Stop once no force component changes by more than this in a sweep (mg). The imbalance that is left is
-  /// larger by about a factor of 10.
+  /// Stop once no force component changes by more than this in a sweep (internal unit of force). The
+  /// imbalance that is left is larger by about a factor of 10.
   double tolerance = 1e-7;
   int max_sweeps = 200000;
 };

@@ -154,11 +154,11 @@ class FieldReader {
     const Shape shape = shape_of(field);
     const std::string path = path_of(field);
     const auto fill = [&](const auto& values) {
-      if constexpr (requires { table.resize(1, 1); }) {
+      if constexpr (std::is_same_v<Table, typename Table::PlainObject>) {
         resize(table, shape[0], shape.size() == 2 ? shape[1] : 1);
         std::transform(values.begin(), values.end(), table.data(),
                        [](auto number) { return static_cast<Number>(number); });
-      } else {
+      } else {  // a column of a table that has its size
         std::copy(values.begin(), values.end(), table.begin());
       }
     };
@@ -266,6 +266,7 @@ ForceRanges read_ranges(const std::filesystem::path& path) {
         fmt::format("{}: has no force ranges; compute them with indet analyze", path.string()));
   }
   ForceRanges ranges;
+  ranges.value.resize(static_cast<Eigen::Index>(file.shape("/contacts/body_a", 1)[0]), 4);
   FieldReader reader(file, ranges);
   visit_fields(ranges, reader);
   if (ranges.choice == ContactChoice::Kind::kAll) ranges.requested = static_cast<int>(ranges.value.rows());

@@ -10,6 +10,8 @@ import h5py
 import numpy as np
 
 FOLDER, FORMAT = (sys.argv.pop() for _ in range(2))
+# group, name, type ("attribute" of the group, or of the numbers of a dataset), shape, unit, meaning
+FIELDS = [line.split("\t") for line in pathlib.Path(FOLDER, "fields.txt").read_text().splitlines()]
 
 
 class Samples(unittest.TestCase):
@@ -146,6 +148,45 @@ class Samples(unittest.TestCase):
         snippet = re.search(r"```python\n(.*?)```", pathlib.Path(FORMAT).read_text(), re.DOTALL).group(1)
         done = subprocess.run([sys.executable, "-c", snippet], cwd=FOLDER, capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout, "True\nTrue\n")
+
+    def test_files_have_the_fields_of_the_list(self):
+        sizes = {"3": 3, "4": 4, "N": 3, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3}
+        types = {"f8": "<f8", "i4": "<i4", "u1": "u1", "enum": "u1"}
+        with h5py.File(f"{FOLDER}/rare.h5", "r") as file:
+            for group, name, kind, shape, unit, meaning in FIELDS:
+                with self.subTest(field=f"{group}/{name}"):
+                    self.assertTrue(meaning)
+                    if kind == "attribute":
+                        self.assertIn(name, file[group].attrs)
+                        continue
+                    dataset = file[f"{group}/{name}"]
+                    self.assertEqual(dataset.dtype, np.dtype(types[kind]))
+                    self.assertEqual(dataset.shape, tuple(sizes[size] for size in shape.split(",")))
+                    self.assertEqual((dataset.attrs["unit"], dataset.attrs["long_name"]), (unit, meaning))
+            stored = set()
+            for group in ["equilibrium", "ranges", "extremal", "provenance/work"]:
+                stored |= {(f"/{group}", name) for name in [*file[group].attrs, *file[group]]}
+        # Of no result: the digest, and the level of confidence that all samples share.
+        self.assertEqual(stored - {("/ranges", "sha256"), ("/ranges", "confidence")},
+                         {(group, name) for group, name, *_ in FIELDS})
+
+    def test_the_documents_have_the_fields_of_the_list(self):
+        text = pathlib.Path(FORMAT).read_text()
+        section = text[text.index("## Force ranges"):text.index("## Digests")]
+        documented = {}
+        for row in re.findall(r"^\| (`/.*?) \| (.*?) \| .*\|$", section, re.MULTILINE):
+            names = re.findall(r"[\w/@]+", row[0])
+            group = names[0].rpartition("/")[0]
+            for name in names:
+                documented[name if name.startswith("/") else f"{group}/{name}"] = row[1]
+        words = set(re.findall(r"`@?(\w+)`", text))
+        for group, name, kind, shape, _, _ in FIELDS:
+            with self.subTest(field=f"{group}/{name}"):
+                if kind == "attribute":
+                    self.assertIn(name, words)
+                else:
+                    self.assertEqual(documented.pop(f"{group}/{name}"), f"{kind}[{shape}]")
+        self.assertEqual([path for path in documented if "@" not in path and path != "/equilibrium"], [])
 
     def test_large_data_are_compressed(self):
         with h5py.File(f"{FOLDER}/large.h5", "r") as file:

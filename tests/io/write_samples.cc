@@ -1,12 +1,44 @@
 // Writes the sample files that h5py_test.py reads, into the folder that is given.
 
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <vector>
+#include <fstream>
+#include <string>
+#include <type_traits>
 
 #include "libindet/io/ranges_file.h"
+#include "libindet/range/result_fields.h"
 #include "tests/io/sample.h"
+
+namespace {
+
+/// How file-format.md calls the type of the numbers of a field.
+template <class Value>
+std::string type_of() {
+  if constexpr (requires { typename Value::Scalar; }) {
+    using Number = typename Value::Scalar;
+    if (std::is_same_v<Number, indet::Outcome>) return "enum";
+    if (std::is_same_v<Number, std::uint8_t>) return "u1";
+    return std::is_same_v<Number, std::int32_t> ? "i4" : "f8";
+  }
+  return "attribute";
+}
+
+/// The list of fields: group, name, type, shape, unit and meaning, a line each.
+void write_fields(const std::filesystem::path& path) {
+  std::ofstream out(path);
+  const indet::ForceRanges ranges;
+  indet::visit_fields(ranges, [&]<class Value>(const indet::Field& field, const Value&) {
+    std::string shape = to_string(field.rows);
+    if (field.columns != indet::Extent::kOne) shape += std::string(",") + to_string(field.columns);
+    out << field.group << '\t' << field.name << '\t' << type_of<Value>() << '\t' << shape << '\t'
+        << field.unit << '\t' << field.meaning << '\n';
+  });
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
@@ -17,6 +49,17 @@ int main(int argc, char** argv) {
         {"indet", "analyze"}, "threads = 1\n", {{"GLPK", "5.0"}}, {{"read", 0.5}}};
     indet::write_ranges(folder / "ranges.h5", indet::test::sample_packing(), indet::test::sample_ranges(),
                         provenance);
+
+    write_fields(folder / "fields.txt");
+
+    // Everything that only some files have.
+    indet::ForceRanges rare = indet::test::sample_ranges();
+    rare.choice = indet::ContactChoice::Kind::kSample;
+    rare.requested = 3;
+    rare.sample_seed = 12;
+    rare.method = indet::Method::kPivotingPaper;
+    rare.motion.setConstant(3, 3, 0.5);
+    indet::write_ranges(folder / "rare.h5", indet::test::sample_packing(), rare, provenance);
 
     // Above the size from which data are compressed.
     indet::ForceRanges large = indet::test::sample_ranges();

@@ -297,7 +297,9 @@ TEST(Analyze, ProgressEndsWhenAllIsSettled) {
       ASSERT_FALSE(settled.empty());
       EXPECT_TRUE(std::is_sorted(settled.begin(), settled.end()));
       EXPECT_EQ(settled.back(), ranges.objectives) << sample;
-      if (sample == packing.contact_count()) EXPECT_LT(settled.front(), ranges.objectives) << "one block";
+      if (sample == packing.contact_count()) {
+        EXPECT_LT(settled.front(), ranges.objectives) << "one block";
+      }
     }
   }
 }

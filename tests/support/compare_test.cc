@@ -42,11 +42,10 @@ template <class Value>
 void change(Value&& value) {
   using Number = std::decay_t<Value>;
   if constexpr (requires { value.rows(); }) {
-    if constexpr (requires { value.resize(1, 1); }) {
-      if (value.size() == 0) {
-        value.setZero(1, Number::ColsAtCompileTime > 0 ? Number::ColsAtCompileTime : value.cols());
-        return;
-      }
+    if (value.size() == 0) {
+      value.resize(1, value.cols());
+      value.setZero();
+      return;
     }
     change(value(value.rows() - 1, value.cols() - 1));
   } else if constexpr (std::is_same_v<Number, std::string>) {
