@@ -12,10 +12,10 @@
 #include "apps/command.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/drawing/packing_picture.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/table.h"
-#include "libindet/drawing/packing_picture.h"
 
 namespace indet::app {
 namespace {

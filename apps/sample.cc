@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/command.h"
 #include "apps/bridge/perturb_record.h"
+#include "apps/command.h"
 #include "apps/sample_uniform.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"

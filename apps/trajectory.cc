@@ -9,8 +9,8 @@
 #include "apps/command.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
-#include "libindet/io/simulation_file.h"
 #include "libindet/drawing/trajectory_picture.h"
+#include "libindet/io/simulation_file.h"
 
 namespace indet::app {
 namespace {
