@@ -109,7 +109,7 @@ class Summary {
           std::tuple{"control: distribution differs (%)", "control_distributions", "contacts"}}) {
       add(name, "0", [&](Protocol p) { return text_of(percentage(p, column, tested), 1); });
     }
-    const auto ratio = [&](const std::string& p, const char* above, const char* from) {
+    const auto ratio = [&](Protocol p, const char* above, const char* from) {
       GroupedValues values = samples_.of({p}, above);
       const GroupedValues other = samples_.of({p}, from);
       const GroupedValues unit = samples_.of({p}, "uniform_R_deviation");
