@@ -33,10 +33,10 @@ struct LpOptions {
 /// rounding, depends on what was asked before. GLPK keeps its state per thread, so a solver must be created,
 /// used and destroyed on one thread.
 ///
-/// Ladder when a solve fails: the formulation's own simplex from the start vertex, with old factors if there
-/// are any, then with new ones; the other simplex from there; from scratch with GLPK's advanced basis;
-/// presolved and rescaled; then kFailed. A failed assertion inside GLPK counts as a failed rung; the problem
-/// is rebuilt.
+/// Where one formulation finds no optimum (formulation_solver.h), the others are tried, dual, edge,
+/// nullspace, from the same start; kEdge only where the set has its implicit description. A basis proves an
+/// optimum, and is taken whoever found it; that there is none is believed once two formulations say the same,
+/// or one says so and the others fail.
 class LpSolver : public Maximiser {
  public:
   /// Precondition: for kEdge the set has its implicit description. `set` must outlive the solver.

@@ -83,7 +83,7 @@ class VertexCollector {
   std::vector<int> number_;
 };
 
-SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& table) {
+SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& table, bool solver_states) {
   SearchResult result;
   result.solves = table.work().solves;
   result.continued = table.work().continued;
@@ -96,6 +96,7 @@ SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& t
     if (known.wanted && known.optimal) {
       extremum.status = Extremum::Status::kOptimal;
       extremum.vertex = collector.add(known.vertex);
+      if (solver_states) extremum.solver_vertex = collector.add(known.settled_at);
       extremum.value = checker.value_of(objective / 2, table.vertex(known.vertex).x);
       extremum.dual_residual = known.dual_residual;
       extremum.proof = known.proof;
@@ -122,7 +123,7 @@ SearchResult search_extrema(const FeasibleSet& set, const std::vector<Component>
   }
   const auto middle = std::chrono::steady_clock::now();
   if (options.canonical_states) find_states(set, checker, table, rounds);
-  SearchResult found = result_of(checker, table);
+  SearchResult found = result_of(checker, table, options.solver_states);
   found.state_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return found;
 }

@@ -17,7 +17,12 @@ struct Extremum {
   enum class Status : std::uint8_t { kOpen, kOptimal, kUnbounded, kFailed };
   Status status = Status::kOpen;
   double value = 0;
-  int vertex = -1;           ///< index into SearchResult::vertices
+  int vertex = -1;  ///< index into SearchResult::vertices
+  /// The vertex that settled the value, before canonical states are looked for: of the vertices in the order
+  /// of the search the first that is optimal, because its reduced costs prove it or because the solver
+  /// stopped there. It is `vertex` of a search without canonical states. −1 where not asked for
+  /// (solver_states).
+  int solver_vertex = -1;
   double dual_residual = 0;  ///< largest wrong-signed reduced cost of the proof
   Basis proof;  ///< the basis whose reduced costs prove the value; at a degenerate vertex that of `vertex`
                 ///< need not

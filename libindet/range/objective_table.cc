@@ -82,6 +82,7 @@ bool ObjectiveTable::take(ObjectiveVerdict& verdict, const CheckedVertex& checke
   known.weight = checked.weight;
   known.vertex = number;
   if (!verdict.optimal) return true;
+  if (!known.optimal) known.settled_at = number;
   // What a solver merely claims to be optimal does not tell the optimal face.
   if (!known.optimal || known.dual_residual > tolerance::kReducedCost) {
     known.held = std::move(verdict.held);

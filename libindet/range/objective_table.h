@@ -17,7 +17,8 @@ namespace indet {
 struct ObjectiveProgress {
   double best = -std::numeric_limits<double>::infinity();  ///< signed so that larger is better
   double weight = std::numeric_limits<double>::infinity();
-  int vertex = -1;  ///< index into ObjectiveTable::vertices of the best one
+  int vertex = -1;      ///< number of the best known vertex
+  int settled_at = -1;  ///< number of the vertex that settled the value: the first found optimal
   bool wanted = false;
   bool optimal = false;
   bool canonical = false;  ///< `vertex` is final

@@ -18,6 +18,8 @@ struct SearchOptions {
   /// Take the state of smallest `weight` on each optimal face, so that every method gives the same one; else
   /// the vertex that the solver lands on.
   bool canonical_states = true;
+  /// Tell for each objective also the vertex that the solver lands on (Extremum::solver_vertex).
+  bool solver_states = false;
   /// Called now and then with the numbers of objectives settled and asked for; false stops the search
   /// (Interrupted).
   std::function<bool(std::int64_t settled, std::int64_t total)> progress;

@@ -17,7 +17,7 @@ struct SolverWork {
   std::int64_t pivots = 0;
 
   void add(const LpAnswer& answer) {
-    ++solves;
+    solves += answer.solves;
     continued += answer.continued ? 1 : 0;
     pivots += answer.pivots;
   }

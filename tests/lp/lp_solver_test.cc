@@ -106,6 +106,26 @@ TEST_P(Formulations, TellUnboundedFromOptimal) {
   test::expect_unbounded_is_told_from_optimal(maker(GetParam()), {{}, {0, 1}});
 }
 
+TEST_P(Formulations, OneWordProvesAnOptimumAndTwoThatThereIsNone) {
+  FeasibleSet set;  // z0 ≥ 0, z1 ≥ 0, z0 − z1 ≥ −1
+  set.slope.resize(3, 2);
+  set.slope << 1, 0, 0, 1, 1, -1;
+  set.offset = Eigen::Vector3d(0, 0, 1);
+  test::describe_implicitly(set);
+  LpSolver solver(set, GetParam());
+  const Objective grows = make_objective(set, {{0, 1.0}});
+  const Objective limited = make_objective(set, {{0, -1.0}, {1, -1.0}});
+  EXPECT_EQ(solver.maximise(limited, {0, 1}).solves, 1);
+  EXPECT_EQ(solver.maximise(grows, {0, 1}).solves, 2);
+  EXPECT_EQ(solver.maximise(limited, {0, 1}).solves, 1) << "the first formulation is asked first again";
+  if (GetParam() == Formulation::kEdge) return;
+  set.equations = {};  // leaves two formulations
+  LpSolver without(set, GetParam());
+  const LpAnswer answer = without.maximise(grows, {0, 1});
+  EXPECT_EQ(answer.status, LpStatus::kUnbounded);
+  EXPECT_EQ(answer.solves, 2);
+}
+
 TEST_P(Formulations, TellInfeasibleSets) {
   FeasibleSet set;  // z0 ≥ 1, z0 ≤ 0, z1 ∈ [0, 1]
   set.slope.resize(4, 2);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "libindet/base/random.h"
@@ -62,6 +64,41 @@ TEST(ExtremalSearch, FindsTheExtremaOfAllVertices) {
       EXPECT_LE(found.solves, static_cast<std::int64_t>(10 * components.size()));
     }
   }
+}
+
+// The search passes the vertices of a search without canonical states before it looks for these.
+TEST(ExtremalSearch, TellsWhereTheSolverLands) {
+  Random random(33);
+  int others = 0;
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    const int d = 2 + static_cast<int>(random.below(3));
+    const FeasibleSet set = random_polytope(d, 4, repeat % 2 == 1, random);
+    const std::vector<Component> components = components_of(set);
+    const Eigen::VectorXd weight = Eigen::VectorXd::Ones(set.inequalities());
+    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    for (const Method method : {Method::kLp, Method::kPivotingTableau, Method::kPivotingPaper}) {
+      SCOPED_TRACE(std::to_string(repeat) + " " + to_string(method));
+      SearchOptions options;
+      options.method = method;
+      options.solver_states = true;
+      const SearchResult found = search_extrema(set, components, weight, start, options);
+      options.canonical_states = options.solver_states = false;
+      const SearchResult plain = search_extrema(set, components, weight, start, options);
+      for (std::size_t c = 0; c < components.size(); ++c) {
+        for (const auto& [both, one] : {std::pair(&found.minimum[c], &plain.minimum[c]),
+                                        std::pair(&found.maximum[c], &plain.maximum[c])}) {
+          ASSERT_EQ(both->status, one->status);
+          EXPECT_EQ(one->solver_vertex, -1);
+          if (one->status != Extremum::Status::kOptimal) continue;
+          ASSERT_GE(both->solver_vertex, 0);
+          const Vertex& landed = found.vertices[static_cast<std::size_t>(both->solver_vertex)];
+          EXPECT_EQ(landed.basis, plain.vertices[static_cast<std::size_t>(one->vertex)].basis);
+          others += both->solver_vertex == both->vertex ? 0 : 1;
+        }
+      }
+    }
+  }
+  EXPECT_GT(others, 100) << "canonical states are others";
 }
 
 TEST(ExtremalSearch, LeavesOutWhatIsNotWanted) {
