@@ -179,11 +179,12 @@ class Samples(unittest.TestCase):
             group = names[0].rpartition("/")[0]
             for name in names:
                 documented[name if name.startswith("/") else f"{group}/{name}"] = row[1]
-        words = set(re.findall(r"`@?(\w+)`", text))
+        provenance = re.search(r"^\| `/provenance` .*$", text, re.MULTILINE)[0]
+        words = set(re.findall(r"[`@](\w+)`", provenance + section))
         for group, name, kind, shape, _, _ in FIELDS:
             with self.subTest(field=f"{group}/{name}"):
                 if kind == "attribute":
-                    self.assertIn(name, words)
+                    self.assertTrue(name in words)
                 else:
                     self.assertEqual(documented.pop(f"{group}/{name}"), f"{kind}[{shape}]")
         self.assertEqual([path for path in documented if "@" not in path and path != "/equilibrium"], [])
