@@ -33,12 +33,13 @@ enum class Presence : std::uint8_t {
 
 /// What a field follows from, and so where it must be the same.
 enum class FieldSource : std::uint8_t {
-  kProblem,   ///< the packing and the request: exactly the same, whatever the method
-  kAnswer,    ///< the polytope: the same within rounding
-  kState,     ///< the same where the method takes the same of several states that attain a value
-  kProof,     ///< one of several that would do
-  kRounding,  ///< the roundings of a computation
-  kWork       ///< how the result was found
+  kProblem,    ///< the packing and the request: exactly the same, whatever the method
+  kAnswer,     ///< the polytope: the same within rounding
+  kEnclosure,  ///< bounds of an answer: intervals of the same answer overlap
+  kState,      ///< the same where the method takes the same of several states that attain a value
+  kProof,      ///< one of several that would do
+  kRounding,   ///< the roundings of a computation
+  kWork        ///< how the result was found
 };
 
 /// One field of the results, and what is told of it everywhere: in files, JSON, tables, tests. `group` and
@@ -119,9 +120,9 @@ void visit_certified(Part& r, Visit& visit) {
                          auto& value) {
     visit(Field{"/ranges", name, unit, meaning, source, Extent::kContacts, Extent::kColumns}, value);
   };
-  table("lower", "force", "lower end of the enclosure of R_min, R_max, T_min, T_max", FieldSource::kAnswer,
+  table("lower", "force", "lower end of the enclosure of R_min, R_max, T_min, T_max", FieldSource::kEnclosure,
         r.lower);
-  table("upper", "force", "upper end of the enclosure of R_min, R_max, T_min, T_max", FieldSource::kAnswer,
+  table("upper", "force", "upper end of the enclosure of R_min, R_max, T_min, T_max", FieldSource::kEnclosure,
         r.upper);
   table("sensitivity", "force/radian",
         "how far the value moves at most, to first order, when every normal turns, per angle",

@@ -125,6 +125,22 @@ AssertionResult same_answers(const ForceRanges& a, const ForceRanges& b, double 
   return result;
 }
 
+/// Enclosures of the same value overlap, whatever their widths.
+AssertionResult overlapping_enclosures(const ForceRanges& a, const ForceRanges& b, double tolerance) {
+  for (Eigen::Index i = 0; i < a.lower.rows(); ++i) {
+    for (Eigen::Index j = 0; j < 4; ++j) {
+      const double low = std::max(a.lower(i, j) / a.force_unit, b.lower(i, j) / b.force_unit);
+      const double high = std::min(a.upper(i, j) / a.force_unit, b.upper(i, j) / b.force_unit);
+      if (std::isnan(a.lower(i, j)) != std::isnan(b.lower(i, j)) ||
+          low > high + tolerance * std::max(1.0, std::abs(high)))
+        return AssertionFailure() << "the enclosures of contact " << i << ", "
+                                  << to_string(static_cast<Column>(j)) << " do not overlap: " << low
+                                  << " above " << high;
+    }
+  }
+  return AssertionSuccess();
+}
+
 /// The states that attain the values; `view` makes of a state what is compared.
 template <class View>
 AssertionResult same_states(const ForceRanges& a, const ForceRanges& b, double tolerance, View view) {
@@ -167,6 +183,7 @@ AssertionResult same_state_measures(const ForceRanges& a, const ForceRanges& b, 
 
 AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance) {
   if (auto same = same_answers(a, b, tolerance); !same) return same;
+  if (auto same = overlapping_enclosures(a, b, tolerance); !same) return same;
   const auto whole = [](const Eigen::RowVectorXd& state) { return state; };
   if (auto same = same_states(a, b, tolerance, whole); !same) return same;
   return same_state_measures(a, b, tolerance);
@@ -174,6 +191,7 @@ AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double t
 
 AssertionResult same_ranges_and_weights(const ForceRanges& a, const ForceRanges& b, double tolerance) {
   if (auto same = same_answers(a, b, tolerance); !same) return same;
+  if (auto same = overlapping_enclosures(a, b, tolerance); !same) return same;
   return same_states(a, b, tolerance, [](const Eigen::RowVectorXd& state) {
     return Eigen::RowVectorXd::Constant(1, state(Eigen::seq(0, Eigen::last, 2)).sum());
   });

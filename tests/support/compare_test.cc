@@ -129,6 +129,22 @@ TEST(Compare, SameRangesSeesAChangeOfEveryFieldThatFollowsFromThePacking) {
   EXPECT_FALSE(same_ranges(ranges, mirrored(ranges), 1e-9));
 }
 
+TEST(Compare, SameRangesSeesEnclosuresThatDoNotOverlap) {
+  const ForceRanges ranges = analyze(zoo::wedge(0.4, 0.3));
+  ForceRanges changed = ranges;
+  changed.lower.array() -= 1e-6;
+  changed.upper.array() += 1e-6;
+  EXPECT_TRUE(same_ranges(ranges, changed, 1e-9)) << "wider ones of the same values";
+  changed.lower(1, kMinT) = ranges.upper(1, kMinT) + 1e-6;
+  EXPECT_FALSE(same_ranges(ranges, changed, 1e-9));
+  changed = ranges;
+  changed.upper(0, kMaxR) = ranges.lower(0, kMaxR) - 1e-6;
+  EXPECT_FALSE(same_ranges(ranges, changed, 1e-9));
+  changed = ranges;
+  changed.lower(0, kMaxR) = ForceRanges::kNaN;
+  EXPECT_FALSE(same_ranges(ranges, changed, 1e-9));
+}
+
 TEST(Compare, SameRangesAndWeightsSeesTheNormalForceOfAStateAlone) {
   const ForceRanges ranges = analyze(zoo::wedge(0.4, 0.3));
   ForceRanges changed = ranges;
