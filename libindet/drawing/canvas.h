@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "libindet/packing/packing.h"
 #include "libindet/drawing/colour_map.h"
+#include "libindet/packing/packing.h"
 
 namespace indet {
 
