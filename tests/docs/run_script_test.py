@@ -22,7 +22,7 @@ class RunScript(unittest.TestCase):
             for part in ["rank 657, nullity 95", "polytope of contact states: bounded",
                          "1504 objectives: 1504 certified, 0 imprecise, 0 failed", " 0 contradictions", "16 packings: 16 computed", "report.html"]:
                 self.assertIn(part, done.stdout)
-            files = re.findall(r"/\S+\.(?:h5|svg)(?=\s)", done.stdout.partition("results:")[2])
+            files = re.findall(r"/\S+\.(?:h5|svg)(?=\s)", done.stdout.partition("results:")[2].partition("== ensemble")[0])
             self.assertEqual(len(files), 3)
             for name in files:
                 self.assertTrue(pathlib.Path(name).is_file(), name)
