@@ -14,7 +14,7 @@
 
 #include "apps/command.h"
 #include "apps/configuration.h"
-#include "apps/ensemble/units/run.h"
+#include "apps/ensemble/members/run.h"
 #include "apps/ensemble_output.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
@@ -25,11 +25,11 @@ namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, units, preset = "stiff", uniform_seeds = "60";
+  std::string folder, scene_file, members, preset = "stiff", uniform_seeds = "60";
   std::optional<int> disks;
   std::optional<double> mu;
   EnsembleConfig config;
-  std::vector<std::string> protocols, files;
+  std::vector<std::string> protocol_names, files;
   bool dry_run = false;
   bool no_solver_states = false;
 };
@@ -49,10 +49,12 @@ EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
   if (!o.scene_file.empty()) config.scene = sim::read_scene(o.scene_file);
   if (o.disks) config.scene.disks = *o.disks;
   if (o.mu) config.scene.friction = {*o.mu, *o.mu};
-  if (!o.protocols.empty()) config.protocols = o.protocols;
+  if (!o.protocol_names.empty()) config.protocols.clear();
+  for (const std::string& name : o.protocol_names)
+    config.protocols.push_back(sim::protocol_from(name).value());
   for (const std::string& file : o.files) config.files.emplace_back(file);
   // Files alone are an ensemble of their own.
-  if (!o.files.empty() && o.protocols.empty() && !seeds_given) config.protocols.clear();
+  if (!o.files.empty() && o.protocol_names.empty() && !seeds_given) config.protocols.clear();
   config.molecular_dynamics = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
   config.solver_states = !o.no_solver_states;
   // Not more than there are.
@@ -66,9 +68,9 @@ struct Range {
   int last = 0;
 };
 
-/// "3-17", or "5" for one unit.
-Range range_of(const std::string& text, int units) {
-  if (text.empty()) return {0, units - 1};
+/// "3-17", or "5" for one member.
+Range range_of(const std::string& text, int members) {
+  if (text.empty()) return {0, members - 1};
   Range range;
   std::size_t end = 0;
   try {
@@ -82,29 +84,31 @@ Range range_of(const std::string& text, int units) {
       throw std::invalid_argument(text);
     }
   } catch (const std::logic_error&) {
-    throw UsageError(fmt::format("--units {}: expected FIRST-LAST, two numbers of units", text));
+    throw UsageError(fmt::format("--members {}: expected FIRST-LAST, two numbers of members", text));
   }
-  if (range.first < 0 || range.first > range.last || range.last >= units)
-    throw UsageError(fmt::format("--units {}: there are units 0-{}", text, units - 1));
+  if (range.first < 0 || range.first > range.last || range.last >= members)
+    throw UsageError(fmt::format("--members {}: there are members 0-{}", text, members - 1));
   return range;
 }
 
-int list_units(const Plan& plan, const Range& range, const Context& context) {
+int list_members(const Plan& plan, const Range& range, const Context& context) {
   double total = 0;
   nlohmann::json json = nlohmann::json::array();
-  if (!context.json) fmt::print("{:>5}  {:<24} {:>12}\n", "unit", "packing", "seconds");
-  for (const Unit& unit : plan.units) {
-    if (unit.number < range.first || unit.number > range.last) continue;
-    total += unit.cost;
+  if (!context.json) fmt::print("{:>5}  {:<24} {:>12}\n", "member", "packing", "seconds");
+  for (const Member& member : plan.members) {
+    if (member.number < range.first || member.number > range.last) continue;
+    total += member.cost;
     if (context.json) {
-      json.push_back(
-          {{"unit", unit.number}, {"name", unit.name}, {"seconds", unit.cost}, {"hash", unit.hash}});
+      json.push_back({{"member", member.number},
+                      {"name", member.name},
+                      {"seconds", member.cost},
+                      {"hash", member.hash}});
     } else {
-      fmt::print("{:>5}  {:<24} {:>12.1f}\n", unit.number, unit.name, unit.cost);
+      fmt::print("{:>5}  {:<24} {:>12.1f}\n", member.number, member.name, member.cost);
     }
   }
   if (context.json) {
-    std::cout << nlohmann::json{{"units", json}, {"seconds", total}}.dump(2) << '\n';
+    std::cout << nlohmann::json{{"members", json}, {"seconds", total}}.dump(2) << '\n';
   } else {
     fmt::print("{}, about {:.0f} s on {}\n", counted(range.last - range.first + 1, "packing"),
                total / context.thread_count(), counted(context.thread_count(), "core"));
@@ -120,10 +124,11 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   }
   for (const std::string& file : o.files) try_reading(file);
   const Plan plan = make_plan(config);
-  const Range range = range_of(o.units, static_cast<int>(plan.units.size()));
-  if (o.dry_run) return list_units(plan, range, context);
+  const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
+  if (o.dry_run) return list_members(plan, range, context);
   const std::filesystem::path folder = o.folder;
-  try_reading(unit_paths({folder}, plan), read_unit);
+  check_layout(folder);
+  try_reading(member_paths({folder}, plan), read_member);
   std::filesystem::create_directories(folder);
   write_plan(folder, plan);
 
@@ -133,18 +138,18 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   options.last = range.last;
   options.progress = context.progress();
   options.provenance = {context.arguments, context.resolved_config, {{"GLPK", glpk_version()}}, {}};
-  const RunSummary summary = run_units(config, plan, folder, options);
-  for (const UnitFailure& failure : summary.failures)
-    context.warn(fmt::format("{}: {}", failure.unit, failure.reason));
+  const RunSummary summary = compute_members(config, plan, folder, options);
+  for (const MemberFailure& failure : summary.failures)
+    context.warn(fmt::format("{}: {}", failure.member, failure.reason));
 
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   Outcomes outcomes{.done = summary.done, .skipped = summary.skipped, .failures = summary.failures};
-  if (range.last - range.first + 1 < static_cast<int>(plan.units.size())) {
+  if (range.last - range.first + 1 < static_cast<int>(plan.members.size())) {
     return report_part(folder, range.first, range.last, outcomes, seconds(), context);
   }
-  return finish_ensemble(folder, plan, collect_units(plan, {folder}, context.progress()), outcomes, seconds,
+  return finish_ensemble(folder, plan, collect_members(plan, {folder}, context.progress()), outcomes, seconds,
                          context);
 }
 
@@ -163,9 +168,9 @@ Command add_ensemble(CLI::App& root) {
   command->add_option("--first-seed", o->config.first_seed, "The first of them")
       ->check(not_negative())
       ->capture_default_str();
-  command->add_option("--protocols", o->protocols, "Which of cd1,cd2,md1,md2 (default: all)")
+  command->add_option("--protocols", o->protocol_names, "Which of cd1,cd2,md1,md2 (default: all)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"cd1", "cd2", "md1", "md2"}));
+      ->check(CLI::IsMember(sim::simulated_names()));
   command->add_option("--scene", o->scene_file, "TOML file of the scene")->check(CLI::ExistingFile);
   command->add_option("--disks", o->disks, "Number of disks (default: 95, or that of the scene)");
   command->add_option("--mu", o->mu, "Friction coefficient (default: 0.3, or that of the scene)");
@@ -187,8 +192,8 @@ Command add_ensemble(CLI::App& root) {
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the vertices that the solver lands on");
-  command->add_option("--units", o->units, "Only units FIRST-LAST, to be joined by indet merge");
-  command->add_flag("--dry-run", o->dry_run, "List the units with their estimated cost");
+  command->add_option("--members", o->members, "Only members FIRST-LAST, to be joined by indet merge");
+  command->add_flag("--dry-run", o->dry_run, "List the members with their estimated cost");
   return {command, [o, seeds](const Context& context) { return run(*o, seeds->count() > 0, context); }};
 }
 

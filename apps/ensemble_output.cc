@@ -12,10 +12,10 @@
 namespace indet::app {
 namespace {
 
-nlohmann::json failures_json(const std::vector<UnitFailure>& failures) {
+nlohmann::json failures_json(const std::vector<MemberFailure>& failures) {
   nlohmann::json json = nlohmann::json::array();
-  for (const UnitFailure& failure : failures)
-    json.push_back({{"unit", failure.unit}, {"reason", failure.reason}});
+  for (const MemberFailure& failure : failures)
+    json.push_back({{"member", failure.member}, {"reason", failure.reason}});
   return json;
 }
 
@@ -34,7 +34,7 @@ int report_part(const std::filesystem::path& folder, int first, int last, const 
                      .dump(2)
               << '\n';
   } else {
-    fmt::print("units {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last,
+    fmt::print("members {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last,
                outcomes.done, outcomes.skipped, outcomes.failures.size(), seconds);
     fmt::print("join the parts with indet merge\n");
   }
@@ -74,7 +74,7 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
               << '\n';
   } else {
     fmt::print("{}: {} computed, {} there already, {} failed\n",
-               counted(static_cast<std::int64_t>(plan.units.size()), "packing"), outcomes.done,
+               counted(static_cast<std::int64_t>(plan.members.size()), "packing"), outcomes.done,
                outcomes.skipped, outcomes.failures.size());
     fmt::print("{} contacts, {} objectives: {} certified, {} unbounded, {} imprecise, {} not found\n",
                contents.tables.contacts.rows(), runs.sum("objectives"), runs.sum("certified"),

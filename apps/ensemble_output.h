@@ -5,25 +5,25 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/ensemble/members/plan.h"
+#include "apps/ensemble/members/run.h"
 #include "apps/ensemble/tables/table.h"
-#include "apps/ensemble/units/plan.h"
-#include "apps/ensemble/units/run.h"
 
 namespace indet::app {
 
-/// What became of the units of this run.
+/// What became of the members of this run.
 struct Outcomes {
   int done = 0;
   int skipped = 0;
-  std::vector<UnitFailure> failures;
+  std::vector<MemberFailure> failures;
 };
 
-/// Says what a run of some units did; returns the exit status.
+/// Says what a run of some members did; returns the exit status.
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
                 double seconds, const Context& context);
 
 /// Writes what was collected to FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5 if
-/// units are missing or something is imprecise.
+/// members are missing or something is imprecise.
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,
                     const Outcomes& outcomes, const std::function<double()>& seconds, const Context& context);
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/tables/table.h"
-#include "apps/ensemble/units/unit_file.h"
 #include "apps/ensemble_output.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
@@ -57,24 +57,25 @@ int run(const MergeCommand& o, const Context& context) {
                                     [&](const fs::path& part) { return fs::equivalent(part, folder); });
     if (!listed) folders.push_back(folder);
   }
-  try_reading(unit_paths(folders, plan), read_unit);
-  Collection collection = collect_units(plan, folders, context.progress());
+  try_reading(member_paths(folders, plan), read_member);
+  Collection collection = collect_members(plan, folders, context.progress());
   const std::vector<std::string>& missing = collection.missing;
   if (!missing.empty() && !o.allow_missing) {
     std::string list;
     for (const std::string& name : missing) list += "\n  " + name;
-    throw InputError(fmt::format("{} of {} units are missing (--allow-missing joins the others):{}",
-                                 missing.size(), plan.units.size(), list));
+    throw InputError(fmt::format("{} of {} members are missing (--allow-missing joins the others):{}",
+                                 missing.size(), plan.members.size(), list));
   }
-  fs::create_directories(folder / "units");
+  fs::create_directories(members_folder(folder));
   write_plan(folder, plan);
   Outcomes outcomes;
-  for (const Unit& unit : plan.units) {
+  for (const Member& member : plan.members) {
     for (const fs::path& part : folders) {
-      const fs::path from = unit_path(part, unit);
-      if (!unit_is_done(from, unit)) continue;
+      const fs::path from = member_path(part, member.name);
+      if (!member_is_done(from, member)) continue;
       ++outcomes.skipped;
-      if (!unit_is_done(unit_path(folder, unit), unit)) bring(from, unit_path(folder, unit));
+      if (!member_is_done(member_path(folder, member.name), member))
+        bring(from, member_path(folder, member.name));
       break;
     }
   }
@@ -89,10 +90,10 @@ int run(const MergeCommand& o, const Context& context) {
 Command add_merge(CLI::App& root) {
   const auto o = std::make_shared<MergeCommand>();
   CLI::App* command =
-      root.add_subcommand("merge", "Join the parts of an ensemble that indet ensemble --units made");
+      root.add_subcommand("merge", "Join the parts of an ensemble that indet ensemble --members made");
   command->add_option("parts", o->parts, "Folders of the parts")->required()->check(CLI::ExistingDirectory);
   command->add_option("-o,--out", o->folder, "Folder to write")->required();
-  command->add_flag("--allow-missing", o->allow_missing, "Join what is there even if units are missing");
+  command->add_flag("--allow-missing", o->allow_missing, "Join what is there even if members are missing");
   return {command, [o](const Context& context) { return run(*o, context); }};
 }
 

@@ -22,11 +22,13 @@ namespace fs = std::filesystem;
 /// Fig. 5: CD-1, MD-2 and the extremal state of largest norm, for the first seed that has both files.
 std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& tables) {
   std::vector<Picture> pictures;
+  const std::vector<sim::Protocol> protocols = protocols_of(tables.runs);
   for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
-    if (tables.runs.text("protocol", row) != "cd1") continue;
-    const std::string name = tables.runs.text("unit", row);
-    const fs::path first = folder / "units" / (name + ".h5");
-    const fs::path second = folder / "units" / ("md2" + name.substr(3) + ".h5");
+    if (protocols[row] != sim::Protocol::kCd1) continue;
+    const std::string name = tables.runs.text("member", row);
+    const auto seed = static_cast<std::int64_t>(tables.runs.number("seed", row));
+    const fs::path first = member_path(folder, name);
+    const fs::path second = member_path(folder, simulated_name(sim::Protocol::kMd2, seed));
     if (!fs::exists(first) || !fs::exists(second)) continue;
     try_reading(first);
     try_reading(second);
@@ -55,6 +57,7 @@ std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& t
 
 int run(const std::string& path, const Context& context) {
   const fs::path folder = path;
+  check_layout(folder);
   if (!fs::exists(folder / "ensemble.h5")) {
     throw InputError(
         fmt::format("{}: has no ensemble.h5; make one with indet ensemble or indet merge", path));

@@ -24,9 +24,9 @@ namespace {
 using sim::Scene;
 using sim::SimulationOptions;
 
-/// Options as given; what is empty keeps the default of the method or of the scene file.
+/// Options as given; what is empty keeps the default of the simulator or of the scene file.
 struct SimulateOptions {
-  std::string protocol;
+  std::string protocol_name;
   std::string scene_file, from, output;
   std::optional<std::uint64_t> seed;
   // Scene.
@@ -34,7 +34,7 @@ struct SimulateOptions {
   std::vector<double> radius, gravity;
   std::optional<double> density, mu, wall_mu, force_unit, width, height, funnel_angle, jitter;
   std::string container;
-  // Method.
+  // Simulator.
   std::string preset = "stiff", damping_method = "automatic";
   std::optional<double> stiffness, damping, dt, tolerance, alpha, restitution, tangential_restitution;
   std::optional<int> sweeps;
@@ -43,6 +43,8 @@ struct SimulateOptions {
   double every = 0;
   double checkpoint = 600;
   bool resume = false;
+
+  sim::Protocol protocol() const { return sim::protocol_from(protocol_name).value(); }
 };
 
 template <class T, class U>
@@ -84,7 +86,7 @@ void refuse_scene_options(const CLI::App& command) {
   }
 }
 
-SimulationOptions method_of(const SimulateOptions& o, bool rigid, const CLI::App& command) {
+SimulationOptions simulation_options_of(const SimulateOptions& o, bool rigid, const CLI::App& command) {
   SimulationOptions options;
   const auto refuse = [&](const char* name, const char* where) {
     if (command.count(name) > 0) throw InputError(fmt::format("{} belongs to {}", name, where));
@@ -93,7 +95,7 @@ SimulationOptions method_of(const SimulateOptions& o, bool rigid, const CLI::App
     for (const char* name : {"--preset", "--stiffness", "--damping", "--damping-method"})
       refuse(name, "md1 and md2");
     sim::ContactDynamicsOptions& cd = options.contact_dynamics;
-    if (o.protocol == "cd2") cd = sim::from_rest_preset();
+    if (o.protocol() == sim::Protocol::kCd2) cd = sim::from_rest_preset();
     set(cd.dt, o.dt);
     set(cd.tolerance, o.tolerance);
     set(cd.max_sweeps, o.sweeps);
@@ -104,7 +106,7 @@ SimulationOptions method_of(const SimulateOptions& o, bool rigid, const CLI::App
   } else {
     for (const char* name : {"--alpha", "--restitution", "--tangential-restitution"})
       refuse(name, "cd1 and cd2");
-    options.method = sim::Method::kMolecularDynamics;
+    options.simulator = sim::Simulator::kMolecularDynamics;
     sim::MolecularDynamicsOptions& md = options.molecular_dynamics;
     md = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
     set(md.k, o.stiffness);
@@ -130,7 +132,7 @@ struct Start {
 };
 
 Start start_of(const SimulateOptions& o, const CLI::App& command, const Context& context) {
-  const bool second = o.protocol.back() == '2';
+  const bool second = starts_from_cd1(o.protocol());
   if (!o.from.empty()) {
     refuse_scene_options(command);
     try_reading(o.from);
@@ -193,9 +195,9 @@ void print_report(const Packing& packing, const sim::Simulation& result, double 
 
 int run(const SimulateOptions& o, const CLI::App& command, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
-  const bool rigid = o.protocol.starts_with("cd");
+  const bool rigid = is_simulated_by(o.protocol(), sim::Simulator::kContactDynamics);
   const Start start = start_of(o, command, context);
-  SimulationOptions options = method_of(o, rigid, command);
+  SimulationOptions options = simulation_options_of(o, rigid, command);
   options.time_limit =
       o.time_limit.value_or(start.height > 0 ? sim::default_time_limit(start.world, start.height) : 0);
   if (const auto reason = options.defect(start.world)) throw InputError(*reason);
@@ -231,7 +233,7 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   Packing packing = result.packing;
-  packing.origin = {.protocol = o.protocol,
+  packing.origin = {.protocol = o.protocol_name,
                     .seed = start.seed,
                     .config = fingerprint,
                     .width = start.width,
@@ -324,10 +326,10 @@ Command add_simulate(CLI::App& root) {
   const auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = root.add_subcommand("simulate", "Make a packing by contact or molecular dynamics");
   command
-      ->add_option("--protocol", options->protocol,
+      ->add_option("--protocol", options->protocol_name,
                    "cd1, md1: from a grid; cd2, md2: from a cd1 packing, at rest")
       ->required()
-      ->check(CLI::IsMember({"cd1", "md1", "cd2", "md2"}));
+      ->check(CLI::IsMember(sim::simulated_names()));
   command->add_option("--seed", options->seed, "Seed of the scene (default: 0)");
   command->add_option("--from", options->from, "Start from the positions of this packing")
       ->check(CLI::ExistingFile);

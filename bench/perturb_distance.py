@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Perturb-and-resolve: what it costs r, and saves in time, to stop the sweeps once balanced forces are near.
 
-Every packing PROTOCOL-SEED.h5 of a folder (the units of an ensemble) is sampled with several --distance, and with
+Every packing PROTOCOL-SEED.h5 of a folder (the members of an ensemble) is sampled with several --distance, and with
 sweeps that go on until they change no force by more than 1e-7 mg; the seed of the sampling is that of the packing.
 Differences of r are taken packing by packing. Times are processor time.
 
@@ -34,7 +34,7 @@ def sample(indet, packing, seed, arguments):
 
 def main():
     indet = sys.argv[1] if len(sys.argv) > 1 else "build/release/indet"
-    folder = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "out/ensemble/units")
+    folder = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "out/ensemble/members")
     seeds = int(sys.argv[3]) if len(sys.argv) > 3 else 8
     packings = [(folder / f"{protocol}-{seed:04}.h5", seed) for seed in range(seeds) for protocol in ("cd1", "cd2", "md1", "md2")]
     settings = {"reference": REFERENCE} | {distance: ("--distance", distance) for distance in DISTANCES}

@@ -49,7 +49,7 @@ Scene bed_of(int disks) {
 
 SimulationOptions stiff_springs() {
   SimulationOptions options;
-  options.method = Method::kMolecularDynamics;
+  options.simulator = Simulator::kMolecularDynamics;
   options.time_limit = 1;
   return options;
 }

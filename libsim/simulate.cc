@@ -36,7 +36,7 @@ double explicit_step(const World& world, const MolecularDynamicsOptions& options
 }
 
 double step_of(const World& world, const SimulationOptions& options, const Units& units) {
-  if (options.method == Method::kContactDynamics) return options.contact_dynamics.dt;
+  if (options.simulator == Simulator::kContactDynamics) return options.contact_dynamics.dt;
   const MolecularDynamicsOptions& md = options.molecular_dynamics;
   if (md.dt > 0) return md.dt;
   return is_implicit(md) ? kImplicitStep : explicit_step(world, md, units);
@@ -101,15 +101,15 @@ std::optional<std::string> SimulationOptions::defect(const World& world) const {
   if (world.size() == 0) return "there are no disks";
   if (!(time_limit > 0)) return fmt::format("the time limit must be positive, but is {}", time_limit);
   if (!(kinetic_energy >= 0) || calm_steps < 0) return "the static criterion must not be negative";
-  return method == Method::kContactDynamics ? rigid_defect(contact_dynamics)
-                                            : spring_defect(world, molecular_dynamics);
+  return simulator == Simulator::kContactDynamics ? rigid_defect(contact_dynamics)
+                                                  : spring_defect(world, molecular_dynamics);
 }
 
 std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<ContactState>& contacts,
                                       const SimulationOptions& options) {
   const Units units = world.units();
   const double dt = step_of(world, options, units) * units.time;
-  if (options.method == Method::kContactDynamics) {
+  if (options.simulator == Simulator::kContactDynamics) {
     const ContactDynamicsOptions& cd = options.contact_dynamics;
     return std::make_unique<ImplicitStepper>(world, contacts,
                                              ImplicitOptions{.dt = dt,
@@ -134,7 +134,7 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
                     const SimulationOptions& options, const Listener& listener, const Checkpoint* resume) {
   const World& world = resume ? resume->world : start;
   if (const auto reason = options.defect(world)) throw InputError(*reason);
-  const bool rigid = options.method == Method::kContactDynamics;
+  const bool rigid = options.simulator == Simulator::kContactDynamics;
   const auto stepper = make_stepper(world, resume ? resume->contacts : contacts, options);
   Simulation result;
   result.implicit_damping = !rigid && is_implicit(options.molecular_dynamics);

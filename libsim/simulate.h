@@ -8,6 +8,7 @@
 #include "libsim/explicit_stepper.h"
 #include "libsim/implicit_stepper.h"
 #include "libsim/polish.h"
+#include "libsim/protocol.h"
 #include "libsim/settle.h"
 
 namespace indet::sim {
@@ -50,10 +51,8 @@ struct MolecularDynamicsOptions {
 MolecularDynamicsOptions stiff_preset();
 MolecularDynamicsOptions paper_preset();
 
-enum class Method { kContactDynamics, kMolecularDynamics };
-
 struct SimulationOptions {
-  Method method = Method::kContactDynamics;
+  Simulator simulator = Simulator::kContactDynamics;
   ContactDynamicsOptions contact_dynamics;
   MolecularDynamicsOptions molecular_dynamics;
   double kinetic_energy = 1e-12;  ///< Per disk, mg r_max: below it a state may be static.

@@ -34,11 +34,10 @@ SimulationRecord record_of(const sim::Simulation& simulation, const sim::Simulat
   const sim::Polished& polished = simulation.polished;
   SimulationRecord record;
   record.raw_contacts = simulation.raw.contacts;
-  record.texts = {
-      {"ending", settled.ending == sim::Ending::kStatic ? "static" : "time limit"},
-      {"reason", settled.reason},
-      {"method", options.method == sim::Method::kContactDynamics ? "contact dynamics" : "molecular dynamics"},
-      {"polish", polished.balanced ? "balanced" : polished.reason}};
+  record.texts = {{"ending", settled.ending == sim::Ending::kStatic ? "static" : "time limit"},
+                  {"reason", settled.reason},
+                  {"method", to_string(options.simulator)},
+                  {"polish", polished.balanced ? "balanced" : polished.reason}};
   record.numbers = {{"time", settled.time},
                     {"dt", simulation.dt},
                     {"steps", static_cast<double>(settled.report.steps)},
@@ -118,9 +117,9 @@ sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::Friction& 
 std::string to_toml(const sim::SimulationOptions& options) {
   std::string text = "[simulation]\n";
   const auto line = [&](const char* key, const auto& value) { text += fmt::format("{} = {}\n", key, value); };
-  if (options.method == sim::Method::kContactDynamics) {
+  line("method", fmt::format("\"{}\"", to_string(options.simulator)));
+  if (options.simulator == sim::Simulator::kContactDynamics) {
     const sim::ContactDynamicsOptions& cd = options.contact_dynamics;
-    line("method", "\"contact dynamics\"");
     line("dt", cd.dt);
     line("tolerance", cd.tolerance);
     line("sweeps", cd.max_sweeps);
@@ -130,7 +129,6 @@ std::string to_toml(const sim::SimulationOptions& options) {
     line("residual", cd.residual);
   } else {
     const sim::MolecularDynamicsOptions& md = options.molecular_dynamics;
-    line("method", "\"molecular dynamics\"");
     line("stiffness", md.k);
     line("damping", md.gamma);
     line("damping_method", fmt::format("\"{}\"", name_of(md.damping)));

@@ -42,7 +42,7 @@ Tally plain_glpk(const ForcePolytope& polytope, Formulation formulation, Start s
     const auto problem = layout->build();
     layout->set_start(*problem, block.lightest);
     GlpkProblem::Settings settings;
-    settings.method = layout->warm_method();
+    settings.simplex = layout->warm_simplex();
     settings.feasibility = options.feasibility;
     settings.optimality = options.optimality;
     settings.keep_factors = start == Start::kLastOptimum;

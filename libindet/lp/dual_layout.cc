@@ -51,7 +51,7 @@ class DualLayout : public Layout {
     return basis;
   }
 
-  GlpkProblem::Method warm_method() const override { return GlpkProblem::Method::kDual; }
+  GlpkProblem::Simplex warm_simplex() const override { return GlpkProblem::Simplex::kDual; }
 
   LpStatus interpret(GlpkProblem::Result result) const override {
     switch (result) {

@@ -132,7 +132,7 @@ GlpkProblem::Result GlpkProblem::solve(const Settings& settings) {
   glp_smcp parameters;
   glp_init_smcp(&parameters);
   parameters.msg_lev = GLP_MSG_OFF;
-  parameters.meth = settings.method == Method::kPrimal ? GLP_PRIMAL : GLP_DUAL;
+  parameters.meth = settings.simplex == Simplex::kPrimal ? GLP_PRIMAL : GLP_DUAL;
   parameters.pricing = GLP_PT_PSE;
   parameters.r_test = GLP_RT_FLIP;
   parameters.tol_bnd = settings.feasibility;

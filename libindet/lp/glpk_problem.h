@@ -26,11 +26,11 @@ class GlpkProblem {
  public:
   enum class Bound : std::uint8_t { kFree, kLower, kFixed };
   enum class Status : std::uint8_t { kBasic, kNonbasic };
-  enum class Method : std::uint8_t { kPrimal, kDual };
+  enum class Simplex : std::uint8_t { kPrimal, kDual };
   enum class Result : std::uint8_t { kOptimal, kInfeasible, kUnbounded, kLimit, kFailed };
 
   struct Settings {
-    Method method = Method::kPrimal;
+    Simplex simplex = Simplex::kPrimal;
     double feasibility = 1e-9;
     double optimality = 1e-9;
     int iteration_limit = 0;

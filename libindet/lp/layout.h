@@ -22,7 +22,7 @@ class Layout {
   /// The active inequalities of the optimal basis found.
   virtual Basis read_basis(const GlpkProblem& problem) const = 0;
   /// The simplex for which a feasible vertex is a feasible start.
-  virtual GlpkProblem::Method warm_method() const = 0;
+  virtual GlpkProblem::Simplex warm_simplex() const = 0;
   /// What GLPK's result says about the FeasibleSet.
   virtual LpStatus interpret(GlpkProblem::Result result) const = 0;
 };

@@ -8,8 +8,9 @@
 namespace indet {
 namespace {
 
-GlpkProblem::Method other(GlpkProblem::Method method) {
-  return method == GlpkProblem::Method::kPrimal ? GlpkProblem::Method::kDual : GlpkProblem::Method::kPrimal;
+GlpkProblem::Simplex other(GlpkProblem::Simplex simplex) {
+  return simplex == GlpkProblem::Simplex::kPrimal ? GlpkProblem::Simplex::kDual
+                                                  : GlpkProblem::Simplex::kPrimal;
 }
 
 /// Pivots before old factors are given up: rounding in them can keep GLPK at an optimum for ever. Solves take
@@ -58,7 +59,7 @@ struct LpSolver::Impl {
   GlpkProblem::Settings settings(int rung) const {
     GlpkProblem::Settings result;
     result.keep_factors = rung == kGoOn;
-    result.method = rung == kWarmOther ? other(layout->warm_method()) : layout->warm_method();
+    result.simplex = rung == kWarmOther ? other(layout->warm_simplex()) : layout->warm_simplex();
     result.feasibility = options.feasibility;
     result.optimality = options.optimality;
     result.iteration_limit = options.iteration_limit;

@@ -48,7 +48,7 @@ class NullSpaceLayout : public Layout {
     return basis;
   }
 
-  GlpkProblem::Method warm_method() const override { return GlpkProblem::Method::kPrimal; }
+  GlpkProblem::Simplex warm_simplex() const override { return GlpkProblem::Simplex::kPrimal; }
 
   LpStatus interpret(GlpkProblem::Result result) const override {
     switch (result) {

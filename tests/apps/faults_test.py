@@ -85,13 +85,13 @@ class DamagedFiles(ProgramTest):
         ensemble = ["ensemble", "--protocols", "cd1,md2", "--seeds", "1", "--disks", "6", "--samples", "0",
                     "--uniform-seeds", "0", "--no-solver-states", "-o", "e"]
         self.run_indet(*ensemble)
-        shutil.copy(pathlib.Path(LAMMPS).parent / "forged/type.h5", self.folder / "e/units/md2-0000.h5")
+        shutil.copy(pathlib.Path(LAMMPS).parent / "forged/type.h5", self.folder / "e/members/md2-0000.h5")
         for command in (ensemble, ["merge", "e", "-o", "m"], ["report", "e"]):
             done = self.run_indet(*command, status=3)
-            self.assertTrue(done.stderr.startswith("indet: e/units/md2-0000.h5: the file is damaged"), done.stderr)
+            self.assertTrue(done.stderr.startswith("indet: e/members/md2-0000.h5: the file is damaged"), done.stderr)
         self.assertEqual(self.files(), ["e"])
         self.assertEqual(list((self.folder / "e").glob("report*")), [])
-        (self.folder / "e/units/md2-0000.h5").unlink()
+        (self.folder / "e/members/md2-0000.h5").unlink()
         again = json.loads(self.run_indet(*ensemble, "--json").stdout)
         self.assertEqual((again["done"], again["skipped"]), (1, 1))
 

@@ -13,11 +13,11 @@ namespace {
 /// force and distances are not.
 EnsembleTables some_ensemble(int disks, double mu) {
   EnsembleTables tables;
-  for (const char* protocol : {"cd1", "cd2", "md1", "md2"}) {
+  for (const sim::Protocol protocol : sim::kSimulated) {
     for (const int seed : {0, 1}) {
       const std::size_t run = tables.runs.rows();
       tables.runs.add_rows(1);
-      tables.runs.set("protocol", run, std::string(protocol));
+      tables.runs.set("protocol", run, std::string(to_string(protocol)));
       tables.runs.set("seed", run, seed);
       tables.runs.set("disks", run, disks);
       tables.runs.set("lower_bound", run, 40);

@@ -33,11 +33,11 @@ class EnsembleTest(program.ProgramTest):
     def ensemble(self, folder, *more, status=0):
         return self.run_indet("ensemble", *TINY, "-o", folder, *more, status=status)
 
-    def test_tables_hold_what_the_units_hold(self):
+    def test_tables_hold_what_the_members_hold(self):
         self.ensemble("e", "--threads", "2")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
-        self.assertEqual([name.decode() for name in runs["unit"]],
+        self.assertEqual([name.decode() for name in runs["member"]],
                          [f"{p}-{s:04}" for p in ("cd1", "cd2", "md1", "md2") for s in (0, 1)])
         shown = json.loads(self.run_indet("inspect", "e", "--json").stdout)
         self.assertEqual((shown["packings"], shown["intact"]), (8, True))
@@ -45,31 +45,31 @@ class EnsembleTest(program.ProgramTest):
         self.assertTrue((runs["certified"] == 4 * runs["contacts"]).all())
         self.assertTrue((runs["nullity"] >= runs["lower_bound"]).all())
         self.assertEqual(len(contacts["run"]), runs["contacts"].sum())
-        for row, name in enumerate(runs["unit"]):
-            with h5py.File(self.folder / f"e/units/{name.decode()}.h5") as unit:
+        for row, name in enumerate(runs["member"]):
+            with h5py.File(self.folder / f"e/members/{name.decode()}.h5") as member:
                 mine = contacts["run"] == row
-                np.testing.assert_array_equal(contacts["delta_R"][mine], unit["ranges/delta_R"][()])
-                np.testing.assert_allclose(contacts["R"][mine], unit["contacts/R"][()] / runs["mg"][row])
+                np.testing.assert_array_equal(contacts["delta_R"][mine], member["ranges/delta_R"][()])
+                np.testing.assert_allclose(contacts["R"][mine], member["contacts/R"][()] / runs["mg"][row])
                 for states in ("extremal_R", "solver_extremal_R"):
-                    self.assertEqual(unit[f"ensemble/{states}"][()].sum(), 4 * runs["contacts"][row] ** 2)
-                self.assertEqual(runs["r"][row], unit["sampling"].attrs["r"])
-            self.run_indet("verify", f"e/units/{name.decode()}.h5")
+                    self.assertEqual(member[f"ensemble/{states}"][()].sum(), 4 * runs["contacts"][row] ** 2)
+                self.assertEqual(runs["r"][row], member["sampling"].attrs["r"])
+            self.run_indet("verify", f"e/members/{name.decode()}.h5")
 
     def test_distances_compare_contacts_by_their_bodies(self):
         self.ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         states = []
         for name in ("cd1-0001", "md2-0001"):
-            with h5py.File(self.folder / f"e/units/{name}.h5") as unit:
-                c = unit["contacts"]
-                mg = unit["parameters"].attrs["mg"]
+            with h5py.File(self.folder / f"e/members/{name}.h5") as member:
+                c = member["contacts"]
+                mg = member["parameters"].attrs["mg"]
                 states.append({frozenset(pair): np.array([R, T]) / mg for *pair, R, T in
                                zip(c["body_a"][()], c["body_b"][()], c["R"][()], c["T"][()])})
         squares = sum(np.sum((states[0].get(k, 0) - states[1].get(k, np.zeros(2))) ** 2)
                       for k in states[0].keys() | states[1].keys())
-        row = list(runs["unit"]).index(b"md2-0001")
+        row = list(runs["member"]).index(b"md2-0001")
         self.assertAlmostEqual(runs["distance_cd1"][row], squares ** 0.5, delta=1e-9)
-        self.assertTrue(np.isnan(runs["distance_cd1"][list(runs["unit"]).index(b"md1-0001")]))
+        self.assertTrue(np.isnan(runs["distance_cd1"][list(runs["member"]).index(b"md1-0001")]))
 
     def test_killed_runs_go_on_to_the_same_tables(self):
         self.ensemble("whole")
@@ -87,10 +87,10 @@ class EnsembleTest(program.ProgramTest):
         leftovers = [path for path in (self.folder / "killed").rglob("*.tmp")]
         self.assertEqual(leftovers, [])
 
-    def test_a_finished_unit_is_skipped_and_a_damaged_or_different_one_is_not(self):
+    def test_a_finished_member_is_skipped_and_a_damaged_or_different_one_is_not(self):
         self.ensemble("e")
         self.assertEqual(json.loads(self.ensemble("e", "--json").stdout)["skipped"], 8)
-        damaged = self.folder / "e/units/md1-0000.h5"
+        damaged = self.folder / "e/members/md1-0000.h5"
         damaged.write_bytes(damaged.read_bytes()[:3000])
         again = json.loads(self.ensemble("e", "--json").stdout)
         self.assertEqual((again["done"], again["skipped"]), (1, 7))
@@ -101,16 +101,16 @@ class EnsembleTest(program.ProgramTest):
 
     def test_parts_join_to_the_same_tables(self):
         self.ensemble("whole")
-        for part, units in enumerate(["0-1", "2-3", "4-5", "6-7"]):
-            self.ensemble(f"p{part}", "--units", units)
+        for part, members in enumerate(["0-1", "2-3", "4-5", "6-7"]):
+            self.ensemble(f"p{part}", "--members", members)
         self.assertFalse((self.folder / "p0/ensemble.h5").exists())
         missing = self.run_indet("merge", "p0", "p1", "p3", "-o", "m", status=3).stderr
-        self.assertIn("2 of 8 units are missing", missing)
+        self.assertIn("2 of 8 members are missing", missing)
         self.assertIn("md1-0001", missing)
         self.assertFalse((self.folder / "m").exists())
         self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
         self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
-        damaged = self.folder / "m/units/md1-0000.h5"
+        damaged = self.folder / "m/members/md1-0000.h5"
         damaged.unlink()  # it is also the file of a part
         damaged.write_bytes(b"damaged")
         self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
@@ -121,7 +121,7 @@ class EnsembleTest(program.ProgramTest):
         with h5py.File(self.folder / "some/ensemble.h5") as file:
             self.assertEqual(len(file["ensemble/missing"]), 6)
 
-    def test_uniform_sampling_of_a_unit_is_that_of_the_command(self):
+    def test_uniform_sampling_of_a_member_is_that_of_the_command(self):
         self.run_indet("ensemble", "--seeds", "1", "--disks", "14", "--samples", "60", "-o", "e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
@@ -129,22 +129,22 @@ class EnsembleTest(program.ProgramTest):
         rows = np.flatnonzero(runs["uniform"] == b"converged")
         self.assertGreater(len(rows), 0)
         for row in rows:
-            name = f"e/units/{runs['unit'][row].decode()}.h5"
+            name = f"e/members/{runs['member'][row].decode()}.h5"
             self.run_indet("sample", name, "--method", "uniform", "--states", "1000000", "-o", "u.h5")
             self.run_indet("sample", name, "--samples", "60", "-o", "p.h5")
             mine = contacts["run"] == row
             mg = runs["mg"][row]
-            with h5py.File(self.folder / name) as unit, h5py.File(self.folder / "u.h5") as u, \
+            with h5py.File(self.folder / name) as member, h5py.File(self.folder / "u.h5") as u, \
                     h5py.File(self.folder / "p.h5") as p:
                 for key, value in u["sampling"].attrs.items():
                     if key not in ("method", "worst_residual"):
-                        self.assertEqual(unit["uniform"].attrs[key], value, key)
+                        self.assertEqual(member["uniform"].attrs[key], value, key)
                 for key in ("center", "deviation", "quantiles", "rhat", "bulk_ess"):
-                    np.testing.assert_array_equal(unit[f"uniform/{key}"][()], u[f"sampling/{key}"][()])
+                    np.testing.assert_array_equal(member[f"uniform/{key}"][()], u[f"sampling/{key}"][()])
                 self.assertEqual(runs["uniform_r"][row], u["sampling"].attrs["r"])
                 R = u["sampling/states"][:, ::2] / mg
                 np.testing.assert_allclose(contacts["uniform_R"][mine], R.mean(0), atol=1e-9)
-                simulated = unit["contacts/R"][()] / mg
+                simulated = member["contacts/R"][()] / mg
                 moves = R.std(0) > 1e-6
                 np.testing.assert_allclose(contacts["uniform_R_percentile"][mine][moves],
                                            100 * (R < simulated).mean(0)[moves], atol=0.5)
@@ -155,7 +155,7 @@ class EnsembleTest(program.ProgramTest):
                 self.assertAlmostEqual(sampled["contacts"][bins].sum(), len(simulated))
                 # The distance of the centres, less what noise makes of it.
                 shift = np.linalg.norm(p["sampling/center"][()] - u["sampling/center"][()]) / mg
-                bias = unit["bias"].attrs
+                bias = member["bias"].attrs
                 self.assertAlmostEqual(max(0, shift**2 - bias["center_noise"]**2) ** 0.5, bias["center_shift"], places=7)
                 self.assertAlmostEqual(p["sampling"].attrs["r"], bias["r"], places=9)
                 self.assertAlmostEqual(bias["ratio"], bias["r"] / u["sampling"].attrs["r"], places=12)
@@ -186,44 +186,59 @@ class EnsembleTest(program.ProgramTest):
         self.run_indet("ensemble", "one.h5", "two.h5", "-o", "e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
-        self.assertEqual([name.decode() for name in runs["unit"]], ["one", "two"])
+        self.assertEqual([name.decode() for name in runs["member"]], ["one", "two"])
         s, c = 0.5, 0.75 ** 0.5
         for row, mu in enumerate((0.3, 0.5)):
             np.testing.assert_allclose(contacts["delta_R"][contacts["run"] == row], mu * s / (c**2 - mu**2 * s**2))
 
-    def test_failed_units_are_named_and_the_others_are_done(self):
+    def test_failed_members_are_named_and_the_others_are_done(self):
         self.packing(program.groove(), "good")
         self.packing(program.groove(), "bad")
-        (self.folder / "e/units/bad.h5").mkdir(parents=True)  # cannot be written
+        (self.folder / "e/members/bad.h5").mkdir(parents=True)  # cannot be written
         done = self.run_indet("ensemble", "good.h5", "bad.h5", "-o", "e", status=5)
         self.assertIn("bad: ", done.stderr)
         self.assertIn("missing: bad", done.stdout)
-        self.assertEqual(list(table(self.folder / "e/ensemble.h5", "runs")["unit"]), [b"good"])
+        self.assertEqual(list(table(self.folder / "e/ensemble.h5", "runs")["member"]), [b"good"])
 
     def test_an_interrupt_leaves_whole_files(self):
         process = subprocess.Popen([program.INDET, "ensemble", "--seeds", "20", "-o", "e"], cwd=self.folder,
                                    stderr=subprocess.PIPE, text=True)
-        while not list((self.folder / "e/units").glob("*.h5")):
+        while not list((self.folder / "e/members").glob("*.h5")):
             self.assertIsNone(process.poll(), "it ended before its first packing")
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         _, error = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
         self.assertFalse((self.folder / "e/ensemble.h5").exists())
-        for path in (self.folder / "e/units").iterdir():
+        for path in (self.folder / "e/members").iterdir():
             self.assertEqual(path.suffix, ".h5", error)
             with h5py.File(path) as file:
                 self.assertEqual(file.attrs["complete"], 1)
 
-    def test_a_dry_run_lists_units_and_writes_nothing(self):
+    def test_a_folder_of_an_earlier_version_is_refused_until_it_is_renamed(self):
+        self.ensemble("e")
+        whole = content(self.folder / "e/ensemble.h5")
+        (self.folder / "e/members").rename(self.folder / "e/units")
+        plan = self.folder / "e/ensemble.toml"
+        plan.write_text(plan.read_text().replace("[[member]]", "[[unit]]"))
+        advice = "rename e/units to e/members and run the same indet ensemble command again"
+        for refused in (self.ensemble("e", status=3), self.run_indet("report", "e", status=3),
+                        self.run_indet("merge", "e", "-o", "m", status=3)):
+            self.assertIn(advice, refused.stderr)
+        (self.folder / "e/units").rename(self.folder / "e/members")
+        self.assertIn("writes it anew", self.run_indet("merge", "e", "-o", "m", status=3).stderr)
+        self.assertEqual(json.loads(self.ensemble("e", "--json").stdout)["skipped"], 8)
+        self.assertEqual(content(self.folder / "e/ensemble.h5"), whole)
+
+    def test_a_dry_run_lists_members_and_writes_nothing(self):
         out = self.ensemble("e", "--dry-run").stdout
         self.assertIn("md2-0001", out)
         self.assertIn("8 packings, about", out)
         self.assertEqual(self.files(), [])
 
     def test_wrong_usage(self):
-        for units in ("7-9", "x", "3-1", "0-1z"):
-            self.ensemble("e", "--units", units, status=2)
+        for members in ("7-9", "x", "3-1", "0-1z"):
+            self.ensemble("e", "--members", members, status=2)
         self.run_indet("merge", ".", "-o", "m", status=3)
         self.run_indet("ensemble", "--protocols", "cd3", "-o", "e", status=2)
         self.assertEqual(self.files(), [])

@@ -56,7 +56,7 @@ inline SimulationOptions contact_dynamics(double time_limit) {
 
 inline SimulationOptions molecular_dynamics(const MolecularDynamicsOptions& preset, double time_limit) {
   SimulationOptions options;
-  options.method = Method::kMolecularDynamics;
+  options.simulator = Simulator::kMolecularDynamics;
   options.molecular_dynamics = preset;
   options.time_limit = time_limit;
   return options;

@@ -11,6 +11,8 @@
 namespace indet {
 namespace {
 
+using sim::Protocol;
+
 std::string text_of_force(const Estimate& e) { return std::isnan(e.value) ? text_of(e) : text_of(e) + " mg"; }
 
 std::string verdict(const Estimate& ours, double paper, double paper_error) {
@@ -49,47 +51,46 @@ void add_dimensions(const EnsembleTables& tables, std::vector<Comparison>& rows)
 std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
   std::vector<Comparison> rows;
   const Samples samples(tables);
-  if (!samples.has({"cd1", "cd2", "md1", "md2"})) return rows;
+  if (!samples.has(kFourProtocols)) return rows;
   add_dimensions(tables, rows);
   const std::array<const char*, 4> sliding = {"near 0", "near 0", "between", "most"};
   for (std::size_t p = 0; p < kFamilies.size(); ++p) {
     if (!samples.has({kFamilies[p].protocol})) continue;
-    rows.push_back({fmt::format("sliding contacts, {} (Fig. 6b)", kFamilies[p].name), sliding[p],
+    rows.push_back({fmt::format("sliding contacts, {} (Fig. 6b)", kFamilies[p].name()), sliding[p],
                     text_of(mean_of(samples.runs(kFamilies[p].protocol, "sliding"))), ""});
   }
   for (const Family& family : kFamilies) {
     if (!samples.has({family.protocol})) continue;
     const Estimate mean = mean_of(samples.runs(family.protocol, "mean_R"));
-    const bool is_known = family.protocol == std::string("cd1");
-    rows.push_back({fmt::format("mean R, {}", family.name), is_known ? "9.3 mg" : "", text_of_force(mean),
+    const bool is_known = family.protocol == Protocol::kCd1;
+    rows.push_back({fmt::format("mean R, {}", family.name()), is_known ? "9.3 mg" : "", text_of_force(mean),
                     is_known ? verdict(mean, 9.3, 0) : ""});
   }
   for (const Family& family : kFamilies) {
     const std::vector<double> values = samples.runs(family.protocol, "r");
     const Estimate r = mean_of(values);
     if (std::isnan(r.value)) continue;
-    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", family.name),
+    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", family.name()),
                     fmt::format("{} mg, s.d. 12 mg", paper_radius(family)),
                     fmt::format("{}, s.d. {:.1f} mg", text_of_force(r), standard_deviation(values)),
                     verdict(r, family.paper_r, family.paper_r_error)});
   }
   struct Distance {
     const char* name;
-    const char* protocol;
+    Protocol protocol;
     const char* column;
     double value, error;
   };
-  for (const Distance& d : {Distance{"distance CD-1 – CD-2", "cd2", "distance_cd1", 50, 3},
-                            Distance{"distance CD-1 – MD-2", "md2", "distance_cd1", 75, 4},
-                            Distance{"distance MD-2 – CD-2", "md2", "distance_cd2", 45, 3}}) {
+  for (const Distance& d : {Distance{"distance CD-1 – CD-2", Protocol::kCd2, "distance_cd1", 50, 3},
+                            Distance{"distance CD-1 – MD-2", Protocol::kMd2, "distance_cd1", 75, 4},
+                            Distance{"distance MD-2 – CD-2", Protocol::kMd2, "distance_cd2", 45, 3}}) {
     const Estimate ours = mean_of(samples.runs(d.protocol, d.column));
     if (std::isnan(ours.value)) continue;
     rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of_force(ours),
                     verdict(ours, d.value, d.error)});
   }
   for (const bool md : {false, true}) {
-    const std::vector<std::string> protocols =
-        md ? std::vector<std::string>{"md1", "md2"} : std::vector<std::string>{"cd1", "cd2"};
+    const Protocols& protocols = md ? kMd : kCd;
     if (!samples.has(protocols)) continue;
     const double paper = md ? 75 : 60;
     for (const char* column : {"d_R", "solver_d_R", "d_T", "solver_d_T"}) {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/ensemble/presentation/samples.h"
-
 namespace indet {
 namespace {
 
@@ -33,14 +31,15 @@ std::string paper_radius(const Family& family) {
 }
 
 Series scatter(const EnsembleTables& tables, const Family& family, const char* x, const char* y) {
-  Series series{.name = family.name,
+  Series series{.name = family.name(),
                 .x = {},
                 .y = {},
                 .mark = Mark::kPoints,
                 .colour = family.colour,
                 .symbol = family.symbol};
-  for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
-    if (tables.runs.text("protocol", row) != family.protocol) continue;
+  const Protocols protocols = protocols_of(tables.runs);
+  for (std::size_t row = 0; row < protocols.size(); ++row) {
+    if (protocols[row] != family.protocol) continue;
     series.x.push_back(tables.runs.number(x, row));
     series.y.push_back(tables.runs.number(y, row));
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/presentation/samples.h"
 #include "apps/ensemble/tables/figure.h"
 #include "apps/ensemble/tables/table.h"
 #include "libindet/statistics/distribution.h"
@@ -15,19 +16,28 @@ constexpr const char* kDensity =
     "Probability densities, normalised over all values, those beyond the axis included. Bars: standard error "
     "by bootstrap over the seeds.";
 
-/// The four protocols as they are named and drawn, and the radius r [38] that the paper found for them (mg).
+/// The paper's four protocols as they are drawn, and the radius r [38] that it found for them (mg).
 struct Family {
-  const char* protocol;
-  const char* name;
+  sim::Protocol protocol;
   int colour;
   int symbol;
   double paper_r;
   double paper_r_error;
+
+  const char* name() const { return properties_of(protocol).paper_name; }
+  bool is_md() const { return is_simulated_by(protocol, sim::Simulator::kMolecularDynamics); }
+  /// What MD is drawn with, unlike CD.
+  Mark mark() const { return is_md() ? Mark::kDashed : Mark::kLine; }
 };
-constexpr std::array<Family, 4> kFamilies = {{{"cd1", "CD-1", 0, 0, 33, 1.4},
-                                              {"cd2", "CD-2", 1, 1, 34, 1.3},
-                                              {"md1", "MD-1", 2, 2, 41, 1.7},
-                                              {"md2", "MD-2", 3, 3, 40, 1.5}}};
+constexpr std::array<Family, 4> kFamilies = {{{sim::Protocol::kCd1, 0, 0, 33, 1.4},
+                                              {sim::Protocol::kCd2, 1, 1, 34, 1.3},
+                                              {sim::Protocol::kMd1, 2, 2, 41, 1.7},
+                                              {sim::Protocol::kMd2, 3, 3, 40, 1.5}}};
+
+/// Their protocols: all, and by simulator.
+inline const Protocols kFourProtocols = {sim::kSimulated.begin(), sim::kSimulated.end()};
+inline const Protocols kCd = {sim::Protocol::kCd1, sim::Protocol::kCd2};
+inline const Protocols kMd = {sim::Protocol::kMd1, sim::Protocol::kMd2};
 
 /// "33 ± 1.4".
 std::string paper_radius(const Family& family);

@@ -20,6 +20,8 @@
 namespace indet {
 namespace {
 
+using sim::Protocol;
+
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kCanonical =
     "where many states attain an optimum, the one of smallest total normal force";
@@ -166,10 +168,10 @@ std::string maximum_text(const char* name, const GroupedValues& data) {
 }
 
 std::vector<Curve> pair_of_methods(const Samples& samples, const char* normal, const char* tangential) {
-  return {{"CD, normal", samples.of({"cd1", "cd2"}, normal), Mark::kLine, 0, true},
-          {"CD, tangential", samples.of({"cd1", "cd2"}, tangential), Mark::kLine, 1, false},
-          {"MD, normal", samples.of({"md1", "md2"}, normal), Mark::kDashed, 2, true},
-          {"MD, tangential", samples.of({"md1", "md2"}, tangential), Mark::kDashed, 3, false}};
+  return {{"CD, normal", samples.of(kCd, normal), Mark::kLine, 0, true},
+          {"CD, tangential", samples.of(kCd, tangential), Mark::kLine, 1, false},
+          {"MD, normal", samples.of(kMd, normal), Mark::kDashed, 2, true},
+          {"MD, tangential", samples.of(kMd, tangential), Mark::kDashed, 3, false}};
 }
 
 Figure local(const Samples& samples) {
@@ -207,7 +209,7 @@ Figure global(const Samples& samples, const char* id, const char* title, const c
 Figure weak_and_strong(const Samples& samples, const char* id, const char* title, const char* normal,
                        const char* tangential, const char* label, const char* claim, bool logarithmic) {
   const auto part = [&](const char* column, bool strong) {
-    return samples.split_by_force("cd1", column, strong);
+    return samples.split_by_force(Protocol::kCd1, column, strong);
   };
   const std::vector<Curve> curves = {
       {"R < mean, normal", part(normal, false), Mark::kLine, 0, false},
@@ -216,8 +218,8 @@ Figure weak_and_strong(const Samples& samples, const char* id, const char* title
       {"R > mean, tangential", part(tangential, true), Mark::kDashed, 3, true}};
   const double high = logarithmic ? largest_of(curves) : end_of_axis(curves);
   const double width = round_width(high, 40);
-  std::string finding =
-      fmt::format("Mean R = {:.2f} mg. In the first bin, 0 … {:g} mg: ", samples.mean_force("cd1"), width);
+  std::string finding = fmt::format(
+      "Mean R = {:.2f} mg. In the first bin, 0 … {:g} mg: ", samples.mean_force(Protocol::kCd1), width);
   for (const Curve& c : curves) {
     const Estimate f = fraction_between(c.data, 0, width);
     finding += fmt::format("{}: {:.3f} ± {:.3f} of its contacts. ", c.name, f.value, f.error);
@@ -242,9 +244,8 @@ Figure places(const Samples& samples) {
   for (const auto& [column, label] : columns) {
     std::vector<Curve> curves;
     for (const Family& f : kFamilies) {
-      curves.push_back({f.name, samples.of({f.protocol}, column),
-                        f.protocol[0] == 'c' ? Mark::kLine : Mark::kDashed, f.colour,
-                        std::string(f.protocol).back() == '1'});
+      curves.push_back(
+          {f.name(), samples.of({f.protocol}, column), f.mark(), f.colour, !starts_from_cd1(f.protocol)});
     }
     Panel panel = panel_of(curves, label, false, 1, 0.05);
     panel.title = label;
@@ -263,10 +264,10 @@ Figure places(const Samples& samples) {
 
 Figure extremal_forces(const Samples& samples, const char* id, const char* title, bool solver,
                        const char* which) {
-  std::vector<Curve> curves = {{"simulated", samples.of({"cd1"}, "R"), Mark::kLine, 7, true}};
+  std::vector<Curve> curves = {{"simulated", samples.of({Protocol::kCd1}, "R"), Mark::kLine, 7, true}};
   const std::array<const char*, 4> names = {"R minimal", "R maximal", "T minimal", "T maximal"};
   for (std::size_t k = 0; k < 4; ++k) {
-    curves.push_back({names[k], samples.extremal("cd1", static_cast<int>(k), solver),
+    curves.push_back({names[k], samples.extremal(Protocol::kCd1, static_cast<int>(k), solver),
                       k < 2 ? Mark::kLine : Mark::kDashed, static_cast<int>(k), false});
   }
   const double high = std::ceil(largest_of(curves));
@@ -294,9 +295,8 @@ Figure extremal_forces(const Samples& samples, const char* id, const char* title
 Figure families(const Samples& samples) {
   std::vector<Curve> curves;
   for (const Family& f : kFamilies) {
-    curves.push_back({f.name, samples.of({f.protocol}, "R"),
-                      f.protocol[0] == 'c' ? Mark::kLine : Mark::kDashed, f.colour,
-                      std::string(f.protocol).back() == '1'});
+    curves.push_back(
+        {f.name(), samples.of({f.protocol}, "R"), f.mark(), f.colour, !starts_from_cd1(f.protocol)});
   }
   const double high = largest_of(curves);
   std::string finding = "Decay lengths of the tails beyond 20 mg. ";
@@ -314,7 +314,7 @@ Figure families(const Samples& samples) {
 std::vector<Figure> make_figures(const EnsembleTables& tables) {
   std::vector<Figure> figures = {two_contacts()};
   const Samples samples(tables);
-  if (!samples.has({"cd1", "cd2", "md1", "md2"}) || tables.contacts.rows() == 0) return figures;
+  if (!samples.has(kFourProtocols) || tables.contacts.rows() == 0) return figures;
   for (Figure& figure : dimensions(tables)) figures.push_back(std::move(figure));
   figures.push_back(local(samples));
   figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", "d_R", "d_T", kCanonical));

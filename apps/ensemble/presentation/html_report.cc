@@ -95,21 +95,22 @@ std::string csv_of(const std::vector<Comparison>& rows) {
 std::string table_of_runs(const EnsembleTables& tables) {
   const Samples samples(tables);
   std::string text =
-      "<table><tr><th>protocol</th><th>packings</th><th>mean M</th><th>mean R (mg)</th><th>mean overlap "
+      "<table><tr><th>protocol</th><th>how</th><th>packings</th><th>mean M</th><th>mean R (mg)</th><th>mean "
+      "overlap "
       "(r<sub>max</sub>)</th><th>came to rest</th></tr>\n";
-  std::set<std::string> protocols;
-  for (std::size_t row = 0; row < tables.runs.rows(); ++row)
-    protocols.insert(tables.runs.text("protocol", row));
-  for (const std::string& protocol : protocols) {
+  for (const sim::ProtocolProperties& properties : sim::kProtocols) {
+    const sim::Protocol protocol = properties.protocol;
+    if (!samples.has({protocol})) continue;
     int still = 0;
     for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
-      if (tables.runs.text("protocol", row) == protocol && tables.runs.text("ending", row) == "static")
-        ++still;
+      if (samples.protocols()[row] == protocol && tables.runs.text("ending", row) == "static") ++still;
     }
     const std::vector<double> contacts = samples.runs(protocol, "contacts");
     text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.1e}</td><td>{}</td></tr>\n", protocol,
-        contacts.size(), mean_of(contacts).value, mean_of(samples.runs(protocol, "mean_R")).value,
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.1e}</td><td>{}</td></"
+        "tr>\n",
+        properties.name, properties.description, contacts.size(), mean_of(contacts).value,
+        mean_of(samples.runs(protocol, "mean_R")).value,
         mean_of(samples.runs(protocol, "mean_overlap")).value, still);
   }
   return text + "</table>\n";
@@ -135,8 +136,8 @@ std::string table_of_times(const EnsembleTables& tables) {
 std::string failures(const EnsembleContents& contents) {
   if (contents.failures.empty() && contents.missing.empty()) return "<p>No packing failed.</p>\n";
   std::string text = "<ul>\n";
-  for (const UnitFailure& failure : contents.failures)
-    text += fmt::format("<li>{}: {}</li>\n", escaped(failure.unit), escaped(failure.reason));
+  for (const MemberFailure& failure : contents.failures)
+    text += fmt::format("<li>{}: {}</li>\n", escaped(failure.member), escaped(failure.reason));
   for (const std::string& name : contents.missing)
     text += fmt::format("<li>{} is missing</li>\n", escaped(name));
   return text + "</ul>\n";

@@ -6,6 +6,13 @@
 #include <cmath>
 
 namespace indet {
+namespace {
+
+bool contains(const Protocols& protocols, sim::Protocol protocol) {
+  return std::find(protocols.begin(), protocols.end(), protocol) != protocols.end();
+}
+
+}  // namespace
 
 std::string text_of(const Estimate& estimate, int digits) {
   if (std::isnan(estimate.value)) return "–";
@@ -35,7 +42,7 @@ Estimate main_maximum(const GroupedValues& data) {
   return high > 0 ? position_of_maximum(data, 0.1 * high, high, round_width(high, 40)) : Estimate{};
 }
 
-Samples::Samples(const EnsembleTables& tables) : tables_(tables) {
+Samples::Samples(const EnsembleTables& tables) : tables_(tables), protocols_(protocols_of(tables.runs)) {
   std::map<std::int64_t, int> numbers;
   for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
     const auto seed = static_cast<std::int64_t>(tables.runs.number("seed", row));
@@ -46,12 +53,9 @@ Samples::Samples(const EnsembleTables& tables) : tables_(tables) {
   }
 }
 
-bool Samples::has(const std::vector<std::string>& protocols) const {
-  for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
-    if (std::find(protocols.begin(), protocols.end(), tables_.runs.text("protocol", row)) != protocols.end())
-      return true;
-  }
-  return false;
+bool Samples::has(const Protocols& protocols) const {
+  return std::any_of(protocols_.begin(), protocols_.end(),
+                     [&](sim::Protocol protocol) { return contains(protocols, protocol); });
 }
 
 bool Samples::has_solver_states() const {
@@ -59,15 +63,12 @@ bool Samples::has_solver_states() const {
   return std::any_of(values.begin(), values.end(), [](double v) { return v == v; });
 }
 
-GroupedValues Samples::of(const std::vector<std::string>& protocols, const std::string& column) const {
+GroupedValues Samples::of(const Protocols& protocols, const std::string& column) const {
   GroupedValues result;
   const std::vector<double> run = tables_.contacts.numbers("run");
   const std::vector<double> values = tables_.contacts.numbers(column);
   std::vector<bool> wanted;
-  for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
-    const std::string& protocol = tables_.runs.text("protocol", row);
-    wanted.push_back(std::find(protocols.begin(), protocols.end(), protocol) != protocols.end());
-  }
+  for (const sim::Protocol protocol : protocols_) wanted.push_back(contains(protocols, protocol));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto row = static_cast<std::size_t>(run[i]);
     if (wanted[row]) result.add(values[i], group_[row]);
@@ -76,12 +77,9 @@ GroupedValues Samples::of(const std::vector<std::string>& protocols, const std::
   return result;
 }
 
-double Samples::mean_force(const std::string& protocol) const {
-  return mean_of(of({protocol}, "R").values).value;
-}
+double Samples::mean_force(sim::Protocol protocol) const { return mean_of(of({protocol}, "R").values).value; }
 
-GroupedValues Samples::split_by_force(const std::string& protocol, const std::string& column,
-                                      bool strong) const {
+GroupedValues Samples::split_by_force(sim::Protocol protocol, const std::string& column, bool strong) const {
   const GroupedValues force = of({protocol}, "R");
   const GroupedValues all = of({protocol}, column);
   const double mean = mean_of(force.values).value;
@@ -93,7 +91,7 @@ GroupedValues Samples::split_by_force(const std::string& protocol, const std::st
   return result;
 }
 
-GroupedValues Samples::extremal(const std::string& protocol, int objective, bool solver) const {
+GroupedValues Samples::extremal(sim::Protocol protocol, int objective, bool solver) const {
   GroupedValues result;
   const FlatTable& table = tables_.extremal;
   const std::vector<double> run = table.numbers("run");
@@ -103,23 +101,20 @@ GroupedValues Samples::extremal(const std::string& protocol, int objective, bool
   const std::vector<double> count = table.numbers("count");
   for (std::size_t i = 0; i < run.size(); ++i) {
     const auto row = static_cast<std::size_t>(run[i]);
-    if (choice[i] == (solver ? 1 : 0) && kind[i] == objective &&
-        tables_.runs.text("protocol", row) == protocol)
+    if (choice[i] == (solver ? 1 : 0) && kind[i] == objective && protocols_[row] == protocol)
       result.add(bin[i] + 0.5, group_[row], count[i]);
   }
   result.groups = groups_;
   return result;
 }
 
-GroupedValues Samples::sampled(const std::vector<std::string>& protocols, const std::string& quantity,
-                               int sampling) const {
+GroupedValues Samples::sampled(const Protocols& protocols, const std::string& quantity, int sampling) const {
   GroupedValues result;
   const FlatTable& table = tables_.sampled;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto row = static_cast<std::size_t>(table.number("run", i));
     if (table.number("sampling", i) != sampling || table.text("quantity", i) != quantity) continue;
-    if (std::find(protocols.begin(), protocols.end(), tables_.runs.text("protocol", row)) == protocols.end())
-      continue;
+    if (!contains(protocols, protocols_[row])) continue;
     result.add(table.number("low", i) + table.number("width", i) / 2, group_[row],
                table.number("contacts", i));
   }
@@ -127,10 +122,10 @@ GroupedValues Samples::sampled(const std::vector<std::string>& protocols, const 
   return result;
 }
 
-std::vector<double> Samples::runs(const std::string& protocol, const std::string& column) const {
+std::vector<double> Samples::runs(sim::Protocol protocol, const std::string& column) const {
   std::vector<double> result;
   for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
-    if (tables_.runs.text("protocol", row) == protocol) result.push_back(tables_.runs.number(column, row));
+    if (protocols_[row] == protocol) result.push_back(tables_.runs.number(column, row));
   }
   return result;
 }

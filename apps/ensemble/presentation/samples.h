@@ -6,8 +6,11 @@
 
 #include "apps/ensemble/tables/table.h"
 #include "libindet/statistics/distribution.h"
+#include "libsim/protocol.h"
 
 namespace indet {
+
+using Protocols = std::vector<sim::Protocol>;
 
 /// "33.1 ± 1.4", the value alone if its error is unknown, "–" if there is none.
 std::string text_of(const Estimate& estimate, int digits = 1);
@@ -27,26 +30,28 @@ class Samples {
  public:
   explicit Samples(const EnsembleTables& tables);
 
+  /// Of each run.
+  const Protocols& protocols() const { return protocols_; }
   /// True if some packing of any of these protocols is there.
-  bool has(const std::vector<std::string>& protocols) const;
+  bool has(const Protocols& protocols) const;
   bool has_solver_states() const;
   /// A column of the contacts of some protocols.
-  GroupedValues of(const std::vector<std::string>& protocols, const std::string& column) const;
+  GroupedValues of(const Protocols& protocols, const std::string& column) const;
   /// The same for contacts with more, or less, than the mean normal force of the protocol.
-  GroupedValues split_by_force(const std::string& protocol, const std::string& column, bool strong) const;
-  double mean_force(const std::string& protocol) const;
+  GroupedValues split_by_force(sim::Protocol protocol, const std::string& column, bool strong) const;
+  double mean_force(sim::Protocol protocol) const;
   /// R in the extremal states of one kind of objective, the canonical ones or the vertices that the solver
   /// lands on; bins of 1 mg at their centres.
-  GroupedValues extremal(const std::string& protocol, int objective, bool solver) const;
+  GroupedValues extremal(sim::Protocol protocol, int objective, bool solver) const;
   /// A quantity of /table/sampled at the centres of its bins, for one sampling: 0 uniform, 1
   /// perturb-and-resolve. A value counts as often as there are such contacts in a state.
-  GroupedValues sampled(const std::vector<std::string>& protocols, const std::string& quantity,
-                        int sampling) const;
+  GroupedValues sampled(const Protocols& protocols, const std::string& quantity, int sampling) const;
   /// A column of the runs of one protocol; NaN where unknown.
-  std::vector<double> runs(const std::string& protocol, const std::string& column) const;
+  std::vector<double> runs(sim::Protocol protocol, const std::string& column) const;
 
  private:
   const EnsembleTables& tables_;
+  Protocols protocols_;
   std::vector<int> group_;  ///< Of each run: number of its seed.
   int groups_ = 0;
 };

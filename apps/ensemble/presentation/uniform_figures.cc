@@ -13,9 +13,6 @@
 namespace indet {
 namespace {
 
-const std::vector<std::string> kCd = {"cd1", "cd2"};
-const std::vector<std::string> kMd = {"md1", "md2"};
-
 double largest_of(const std::vector<Series>& series) {
   double high = 0;
   for (const Series& s : series) {
@@ -41,7 +38,8 @@ std::vector<Family> families_with(const Samples& samples, const char* column) {
 
 Figure radii(const EnsembleTables& tables, const Samples& samples) {
   std::vector<std::string> radii_of_paper;
-  for (const Family& f : kFamilies) radii_of_paper.push_back(fmt::format("{} ({})", paper_radius(f), f.name));
+  for (const Family& f : kFamilies)
+    radii_of_paper.push_back(fmt::format("{} ({})", paper_radius(f), f.name()));
   Figure figure{
       .id = "uniform-r",
       .title = "Radius and centre of both samplings",
@@ -68,7 +66,7 @@ Figure radii(const EnsembleTables& tables, const Samples& samples) {
     figure.finding += fmt::format(
         "{}: r is {} mg uniformly and {} mg by perturb-and-resolve, {} times as large; the centres are {} mg "
         "apart. ",
-        family.name, text_of(mean("uniform_r"), 1), text_of(mean("r"), 1), text_of(mean("bias_ratio"), 2),
+        family.name(), text_of(mean("uniform_r"), 1), text_of(mean("r"), 1), text_of(mean("bias_ratio"), 2),
         text_of(mean("bias_shift"), 1));
   }
   const double end = 1.1 * largest_of(figure.panels[0].series);
@@ -134,10 +132,10 @@ Figure places(const Samples& samples) {
   for (const bool md : {false, true}) {
     std::vector<Curve> curves;
     for (const Family& f : kFamilies) {
-      if ((f.protocol[0] == 'm') == md)
-        curves.push_back({f.name, samples.of({f.protocol}, "R_star"), Mark::kLine, f.colour, true});
+      if (f.is_md() == md)
+        curves.push_back({f.name(), samples.of({f.protocol}, "R_star"), Mark::kLine, f.colour, true});
     }
-    const std::vector<std::string>& protocols = md ? kMd : kCd;
+    const Protocols& protocols = md ? kMd : kCd;
     curves.push_back({"uniform", samples.sampled(protocols, "R_star", 0), Mark::kLine, 7, false});
     curves.push_back({"perturb", samples.sampled(protocols, "R_star", 1), Mark::kDashed, 4, false});
     Panel panel = panel_of(curves, "R*", false, 1, 0.05);
@@ -184,7 +182,7 @@ Figure tests(const Samples& samples) {
       .claim = "",
       .finding = "Contacts with p ≤ 0.05, of which there would be 5 % if both samplings were the same. ",
       .panels = {}};
-  const std::vector<std::string> all = {"cd1", "cd2", "md1", "md2"};
+  const Protocols& all = kFourProtocols;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string column = i == 0 ? "p_mean" : "p_distribution";
     Panel panel{.title = i == 0 ? "means" : "distributions",
@@ -223,11 +221,7 @@ Panel percentiles(const Samples& samples, const char* column, const char* label,
       if (!std::isnan(value)) values.push_back(value);
     }
     std::sort(values.begin(), values.end());
-    Series series{.name = family.name,
-                  .x = {0},
-                  .y = {0},
-                  .mark = family.protocol[0] == 'c' ? Mark::kLine : Mark::kDashed,
-                  .colour = family.colour};
+    Series series{.name = family.name(), .x = {0}, .y = {0}, .mark = family.mark(), .colour = family.colour};
     const auto n = static_cast<double>(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
       series.x.insert(series.x.end(), 2, values[i]);
@@ -240,8 +234,8 @@ Panel percentiles(const Samples& samples, const char* column, const char* label,
     const Estimate mean = mean_of(values);
     for (double& value : values) value /= 100;
     const double p = uniformity_probability(values);
-    finding += fmt::format("{} {} {}{}", panel.series.size() == 1 ? ":" : ",", family.name, text_of(mean, 1),
-                           std::isnan(p) ? std::string() : fmt::format(" (p = {:.1g})", p));
+    finding += fmt::format("{} {} {}{}", panel.series.size() == 1 ? ":" : ",", family.name(),
+                           text_of(mean, 1), std::isnan(p) ? std::string() : fmt::format(" (p = {:.1g})", p));
   }
   finding += ". ";
   panel.series.push_back(line("equal", 100, 1));

@@ -12,15 +12,16 @@
 namespace indet {
 namespace {
 
+using sim::Protocol;
 using Rows = std::vector<std::vector<std::string>>;
-using Cell = std::function<std::string(const std::string& protocol)>;
+using Cell = std::function<std::string(Protocol protocol)>;
 
 class Summary {
  public:
   explicit Summary(const EnsembleTables& tables) : tables_(tables), samples_(tables) {
     const std::vector<double> r = tables.runs.numbers("uniform_r");
     for (std::size_t row = 0; row < r.size(); ++row) {
-      if (!std::isnan(r[row])) sampled_.push_back(tables.runs.text("protocol", row));
+      if (!std::isnan(r[row])) sampled_.push_back(samples_.protocols()[row]);
     }
     for (std::size_t p = 0; p < kFamilies.size(); ++p) {
       if (std::count(sampled_.begin(), sampled_.end(), kFamilies[p].protocol) > 0) shown_.push_back(p);
@@ -30,10 +31,10 @@ class Summary {
   Rows rows() {
     if (shown_.empty()) return {};
     std::vector<std::string> header = {""};
-    for (const std::size_t p : shown_) header.emplace_back(kFamilies[p].name);
+    for (const std::size_t p : shown_) header.emplace_back(kFamilies[p].name());
     header.emplace_back("if equal");
     rows_.push_back(header);
-    add("packings sampled uniformly, converged", "", [&](const std::string& p) { return converged(p); });
+    add("packings sampled uniformly, converged", "", [&](Protocol p) { return converged(p); });
     add_radii();
     add_tests();
     add_places();
@@ -49,16 +50,15 @@ class Summary {
   }
 
   void add_mean(const std::string& name, const std::string& expected, const char* column, int digits) {
-    add(name, expected,
-        [&](const std::string& p) { return text_of(mean_of(samples_.runs(p, column)), digits); });
+    add(name, expected, [&](Protocol p) { return text_of(mean_of(samples_.runs(p, column)), digits); });
   }
 
-  std::string converged(const std::string& protocol) const {
+  std::string converged(Protocol protocol) const {
     std::int64_t done = 0;
     std::int64_t asked = 0;
     for (std::size_t row = 0; row < tables_.runs.rows(); ++row) {
       const std::string& outcome = tables_.runs.text("uniform", row);
-      if (tables_.runs.text("protocol", row) != protocol || outcome.empty()) continue;
+      if (samples_.protocols()[row] != protocol || outcome.empty()) continue;
       ++asked;
       done += outcome == "converged" ? 1 : 0;
     }
@@ -66,7 +66,7 @@ class Summary {
   }
 
   /// Of the packings in which both samplings were compared.
-  std::vector<double> compared(const std::string& protocol, const char* column) const {
+  std::vector<double> compared(Protocol protocol, const char* column) const {
     std::vector<double> values = samples_.runs(protocol, column);
     const std::vector<double> ratio = samples_.runs(protocol, "bias_ratio");
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -78,14 +78,14 @@ class Summary {
   void add_radii() {
     add_mean("r of the uniform distribution (mg)", "", "uniform_r", 1);
     add("r of perturb-and-resolve [38] (mg)", "",
-        [&](const std::string& p) { return text_of(mean_of(compared(p, "r")), 1); });
-    add("the same in the paper (mg)", "", [](const std::string& p) {
+        [&](Protocol p) { return text_of(mean_of(compared(p, "r")), 1); });
+    add("the same in the paper (mg)", "", [](Protocol p) {
       return paper_radius(*std::find_if(kFamilies.begin(), kFamilies.end(),
                                         [&](const Family& f) { return p == f.protocol; }));
     });
     add_mean("ratio of both", "1", "bias_ratio", 2);
     add_mean("distance of their centres (mg)", "0", "bias_shift", 1);
-    add("packings in which it is above three standard errors (%)", "0", [&](const std::string& p) {
+    add("packings in which it is above three standard errors (%)", "0", [&](Protocol p) {
       const std::vector<double> shift = samples_.runs(p, "bias_shift");
       const std::vector<double> error = samples_.runs(p, "bias_shift_error");
       int known = 0;
@@ -100,16 +100,16 @@ class Summary {
 
   void add_tests() {
     add("contacts with 20 effective states of perturb-and-resolve, tested (%)", "",
-        [&](const std::string& p) { return text_of(percentage(p, "bias_tested", "contacts"), 0); });
+        [&](Protocol p) { return text_of(percentage(p, "bias_tested", "contacts"), 0); });
     for (const auto& [name, column, tested] :
          {std::tuple{"of these, mean of R differs (%)", "bias_means", "bias_tested"},
           std::tuple{"of these, distribution of R differs (%)", "bias_distributions", "bias_tested"},
           std::tuple{"control, two halves of the uniform sample: mean differs (%)", "control_means",
                      "contacts"},
           std::tuple{"control: distribution differs (%)", "control_distributions", "contacts"}}) {
-      add(name, "0", [&](const std::string& p) { return text_of(percentage(p, column, tested), 1); });
+      add(name, "0", [&](Protocol p) { return text_of(percentage(p, column, tested), 1); });
     }
-    const auto ratio = [&](const std::string& p, const char* above, const char* from) {
+    const auto ratio = [&](Protocol p, const char* above, const char* from) {
       GroupedValues values = samples_.of({p}, above);
       const GroupedValues other = samples_.of({p}, from);
       const GroupedValues unit = samples_.of({p}, "uniform_R_deviation");
@@ -121,13 +121,13 @@ class Summary {
       return text_of(grouped_mean(values), 2);
     };
     add("standard deviation of R, perturb-and-resolve : uniform, mean over contacts", "1",
-        [&](const std::string& p) { return ratio(p, "perturb_R_deviation", "perturb_R_deviation"); });
+        [&](Protocol p) { return ratio(p, "perturb_R_deviation", "perturb_R_deviation"); });
     add("difference of the means of R in standard deviations, mean of absolute values", "0",
-        [&](const std::string& p) { return ratio(p, "perturb_R", "uniform_R"); });
+        [&](Protocol p) { return ratio(p, "perturb_R", "uniform_R"); });
   }
 
   /// Mean over packings of 100 a/b.
-  Estimate percentage(const std::string& protocol, const char* a, const char* b) const {
+  Estimate percentage(Protocol protocol, const char* a, const char* b) const {
     std::vector<double> values = compared(protocol, a);
     const std::vector<double> below = samples_.runs(protocol, b);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -145,9 +145,8 @@ class Summary {
     add_mean("… of the mean R*", expected, "uniform_R_star_percentile", 1);
     add_mean("… of the mean |T|/(μR)", expected, "uniform_mobilisation_percentile", 1);
     add_mean("… of Ms", "50", "uniform_sliding_percentile", 1);
-    add("Ms simulated", "",
-        [&](const std::string& p) { return text_of(mean_of(samples_.runs(p, "sliding")), 1); });
-    add("largest Ms of a uniform sample", "", [&](const std::string& p) {
+    add("Ms simulated", "", [&](Protocol p) { return text_of(mean_of(samples_.runs(p, "sliding")), 1); });
+    add("largest Ms of a uniform sample", "", [&](Protocol p) {
       double largest = 0;
       for (const double value : samples_.runs(p, "uniform_most_sliding")) largest = std::fmax(largest, value);
       return fmt::format("{:g}", largest);
@@ -158,8 +157,8 @@ class Summary {
 
   const EnsembleTables& tables_;
   Samples samples_;
-  std::vector<std::string> sampled_;  ///< Protocols of the packings with a uniform sample.
-  std::vector<std::size_t> shown_;    ///< Families that have some.
+  Protocols sampled_;               ///< Protocols of the packings with a uniform sample.
+  std::vector<std::size_t> shown_;  ///< Families that have some.
   Rows rows_;
 };
 

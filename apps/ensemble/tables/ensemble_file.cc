@@ -45,7 +45,7 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   file.make_group("/ensemble");
   file.set_attribute("/ensemble", "config", contents.config);
   file.set_attribute("/ensemble", "hash", contents.hash);
-  file.write_strings("/ensemble/missing", contents.missing, {"1", "units that are not in the tables"});
+  file.write_strings("/ensemble/missing", contents.missing, {"1", "members that are not in the tables"});
   file.make_group("/table");
   contents.tables.runs.write(file, "/table/runs");
   contents.tables.contacts.write(file, "/table/contacts");
@@ -54,14 +54,14 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   file.make_group("/figures");
   for (const Figure& figure : figures) write_figure(file, figure);
   write_provenance_part(file, provenance);
-  contents.tables.timings.write(file, "/provenance/units");
-  std::vector<std::string> units, reasons;
-  for (const UnitFailure& failure : contents.failures) {
-    units.push_back(failure.unit);
+  contents.tables.timings.write(file, "/provenance/members");
+  std::vector<std::string> members, reasons;
+  for (const MemberFailure& failure : contents.failures) {
+    members.push_back(failure.member);
     reasons.push_back(failure.reason);
   }
   file.make_group("/provenance/failures");
-  file.write_strings("/provenance/failures/unit", units, {"1", "name of the packing"});
+  file.write_strings("/provenance/failures/member", members, {"1", "name of the packing"});
   file.write_strings("/provenance/failures/reason", reasons, {"1", "why there is none"});
   seal(file);
   remove_leftovers(path);
@@ -70,6 +70,11 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
 EnsembleContents read_ensemble(const std::filesystem::path& path) {
   const Hdf5File file = open_indet_file(path);
   if (!file.has("/table/runs")) throw InputError(fmt::format("{} is not an ensemble", path.string()));
+  if (!file.has("/table/runs/member")) {
+    throw InputError(fmt::format(
+        "{} was written by an earlier indet; the indet ensemble command that made it writes it anew",
+        path.string()));
+  }
   EnsembleContents contents;
   contents.config = file.string_attribute("/ensemble", "config");
   contents.hash = file.string_attribute("/ensemble", "hash");
@@ -78,11 +83,11 @@ EnsembleContents read_ensemble(const std::filesystem::path& path) {
   contents.tables.contacts.read(file, "/table/contacts");
   contents.tables.extremal.read(file, "/table/extremal");
   contents.tables.sampled.read(file, "/table/sampled");
-  contents.tables.timings.read(file, "/provenance/units");
-  const std::size_t failures = file.shape("/provenance/failures/unit", 1)[0];
-  const auto units = file.read_strings("/provenance/failures/unit", failures);
+  contents.tables.timings.read(file, "/provenance/members");
+  const std::size_t failures = file.shape("/provenance/failures/member", 1)[0];
+  const auto members = file.read_strings("/provenance/failures/member", failures);
   const auto reasons = file.read_strings("/provenance/failures/reason", failures);
-  for (std::size_t i = 0; i < failures; ++i) contents.failures.push_back({units[i], reasons[i]});
+  for (std::size_t i = 0; i < failures; ++i) contents.failures.push_back({members[i], reasons[i]});
   return contents;
 }
 

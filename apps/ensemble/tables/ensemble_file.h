@@ -15,8 +15,8 @@ struct EnsembleContents {
   std::string config;
   std::string hash;  ///< Of the plan.
   EnsembleTables tables;
-  std::vector<std::string> missing;  ///< Units that the plan has and the tables lack.
-  std::vector<UnitFailure> failures;
+  std::vector<std::string> missing;  ///< Members that the plan has and the tables lack.
+  std::vector<MemberFailure> failures;
 };
 
 void write_ensemble(const std::filesystem::path& path, const EnsembleContents& contents,

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/tables/uniform_tables.h"
-#include "apps/ensemble/units/unit_file.h"
 #include "libindet/base/error.h"
 #include "libindet/io/ranges_file.h"
 
@@ -64,7 +64,7 @@ constexpr std::array<AttributeColumn, 5> kTimings = {{
 
 std::vector<Column> run_columns() {
   std::vector<Column> columns = {
-      FlatTable::text("unit", "name of the packing"),
+      FlatTable::text("member", "name of the packing"),
       FlatTable::text("protocol", "how it was made"),
       FlatTable::integer("seed", "seed, -1 if there is none"),
       FlatTable::integer("disks", "number of disks N"),
@@ -124,7 +124,7 @@ std::vector<Column> contact_columns() {
 }
 
 /// One packing as read from its file, in units of mg.
-struct UnitFile {
+struct MemberFile {
   Packing packing;
   std::map<std::string, std::vector<double>> columns;  ///< Of /ranges and /ensemble.
   std::vector<std::uint8_t> unique;
@@ -139,7 +139,7 @@ std::pair<int, int> bodies(const Contact& contact) {
 
 /// Distance of two states of the same disks in units of force; where one has no contact its forces are 0. R
 /// and T do not change if a contact's bodies change places.
-double distance(const UnitFile& a, const UnitFile& b) {
+double distance(const MemberFile& a, const MemberFile& b) {
   double squares = 0;
   for (const auto& [key, force] : a.forces) {
     const auto other = b.forces.find(key);
@@ -155,15 +155,15 @@ class Collector {
  public:
   explicit Collector(EnsembleTables& tables) : tables_(tables) {}
 
-  void add(const Unit& unit, const std::filesystem::path& path) {
+  void add(const Member& member, const std::filesystem::path& path) {
     const Hdf5File file = open_indet_file(path);
-    UnitFile content;
+    MemberFile content;
     content.packing = read_packing_part(file);
     const double mg = content.packing.force_unit();
     for (const Contact& c : content.packing.contacts) content.forces[bodies(c)] = {c.R / mg, c.T / mg};
     const std::size_t run = tables_.runs.rows();
     tables_.runs.add_rows(1);
-    add_run(unit, file, content, run);
+    add_run(member, file, content, run);
     const std::size_t first_contact = tables_.contacts.rows();
     add_contacts(file, content, run);
     add_uniform_sampling(file, tables_, run, first_contact);
@@ -171,17 +171,17 @@ class Collector {
     add_extremal(file, "/ensemble/solver_extremal_R", 1, run);
     tables_.timings.add_rows(1);
     take_attributes(file, kTimings, run, tables_.timings);
-    add_distances(unit, content, run);
+    add_distances(member, content, run);
   }
 
  private:
-  void add_run(const Unit& unit, const Hdf5File& file, const UnitFile& content, std::size_t run) {
+  void add_run(const Member& member, const Hdf5File& file, const MemberFile& content, std::size_t run) {
     FlatTable& runs = tables_.runs;
     const Packing& packing = content.packing;
     const double mg = packing.force_unit();
-    runs.set("unit", run, unit.name);
-    runs.set("protocol", run, unit.protocol);
-    runs.set("seed", run, static_cast<double>(unit.seed));
+    runs.set("member", run, member.name);
+    runs.set("protocol", run, std::string(to_string(member.protocol)));
+    runs.set("seed", run, static_cast<double>(member.seed));
     runs.set("disks", run, packing.disk_count());
     runs.set("contacts", run, packing.contact_count());
     runs.set("lower_bound", run, 2 * packing.contact_count() - 3 * packing.disk_count());
@@ -207,7 +207,7 @@ class Collector {
     take_attributes(file, kAttributes, run, runs);
   }
 
-  void add_contacts(const Hdf5File& file, const UnitFile& content, std::size_t run) {
+  void add_contacts(const Hdf5File& file, const MemberFile& content, std::size_t run) {
     FlatTable& table = tables_.contacts;
     const Packing& packing = content.packing;
     const double mg = packing.force_unit();
@@ -270,22 +270,23 @@ class Collector {
   }
 
   /// Distances between the states of one seed, whichever comes first.
-  void add_distances(const Unit& unit, UnitFile& content, std::size_t run) {
-    if (unit.protocol == "file" || !content.packing.has_simulated_forces()) return;
-    for (const auto& [protocol, other] : of_seed_[unit.seed]) {
+  void add_distances(const Member& member, MemberFile& content, std::size_t run) {
+    using sim::Protocol;
+    if (member.protocol == Protocol::kFile || !content.packing.has_simulated_forces()) return;
+    for (const auto& [protocol, other] : of_seed_[member.seed]) {
       const double d = distance(content, other.second);
-      if (protocol == "md1" || unit.protocol == "md1") continue;  // other positions
-      if (protocol == "cd1") tables_.runs.set("distance_cd1", run, d);
-      if (protocol == "cd2") tables_.runs.set("distance_cd2", run, d);
-      if (unit.protocol == "cd1") tables_.runs.set("distance_cd1", other.first, d);
-      if (unit.protocol == "cd2") tables_.runs.set("distance_cd2", other.first, d);
+      if (protocol == Protocol::kMd1 || member.protocol == Protocol::kMd1) continue;  // other positions
+      if (protocol == Protocol::kCd1) tables_.runs.set("distance_cd1", run, d);
+      if (protocol == Protocol::kCd2) tables_.runs.set("distance_cd2", run, d);
+      if (member.protocol == Protocol::kCd1) tables_.runs.set("distance_cd1", other.first, d);
+      if (member.protocol == Protocol::kCd2) tables_.runs.set("distance_cd2", other.first, d);
     }
     content.packing = Packing{};
-    of_seed_[unit.seed][unit.protocol] = {run, std::move(content)};
+    of_seed_[member.seed][member.protocol] = {run, std::move(content)};
   }
 
   EnsembleTables& tables_;
-  std::map<std::int64_t, std::map<std::string, std::pair<std::size_t, UnitFile>>> of_seed_;
+  std::map<std::int64_t, std::map<sim::Protocol, std::pair<std::size_t, MemberFile>>> of_seed_;
 };
 
 }  // namespace
@@ -301,38 +302,51 @@ EnsembleTables::EnsembleTables()
       sampled(sampled_columns()),
       timings(timing_columns()) {}
 
-Collection collect_units(const Plan& plan, const std::vector<std::filesystem::path>& folders,
-                         const ProgressCallback& progress) {
+std::vector<sim::Protocol> protocols_of(const FlatTable& runs) {
+  std::vector<sim::Protocol> protocols;
+  for (std::size_t run = 0; run < runs.rows(); ++run) {
+    const auto protocol = sim::protocol_from(runs.text("protocol", run));
+    if (!protocol) {
+      throw InputError(
+          fmt::format("/table/runs/protocol: \"{}\" is no protocol", runs.text("protocol", run)));
+    }
+    protocols.push_back(*protocol);
+  }
+  return protocols;
+}
+
+Collection collect_members(const Plan& plan, const std::vector<std::filesystem::path>& folders,
+                           const ProgressCallback& progress) {
   Collection collection;
   Collector collector(collection.tables);
-  for (const Unit& unit : plan.units) {
+  for (const Member& member : plan.members) {
     if (progress && !progress({.stage = "collecting",
-                               .done = unit.number,
-                               .total = static_cast<std::int64_t>(plan.units.size()),
+                               .done = member.number,
+                               .total = static_cast<std::int64_t>(plan.members.size()),
                                .details = {}}))
       throw Interrupted();
     std::filesystem::path found;
     for (const std::filesystem::path& folder : folders) {
-      const std::filesystem::path path = unit_path(folder, unit);
-      if (!unit_is_done(path, unit)) continue;
+      const std::filesystem::path path = member_path(folder, member.name);
+      if (!member_is_done(path, member)) continue;
       if (!found.empty() && !std::filesystem::equivalent(path, found)) {
         throw InputError(
-            fmt::format("{} is in two parts: {} and {}", unit.name, found.string(), path.string()));
+            fmt::format("{} is in two parts: {} and {}", member.name, found.string(), path.string()));
       }
       found = path;
     }
     if (found.empty()) {
-      collection.missing.push_back(unit.name);
+      collection.missing.push_back(member.name);
     } else {
-      collector.add(unit, found);
+      collector.add(member, found);
     }
   }
   return collection;
 }
 
-void read_unit(const std::filesystem::path& path) {
+void read_member(const std::filesystem::path& path) {
   EnsembleTables tables;
-  Collector(tables).add(Unit{}, path);
+  Collector(tables).add(Member{}, path);
 }
 
 }  // namespace indet

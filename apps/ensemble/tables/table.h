@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/members/plan.h"
+#include "apps/ensemble/members/run.h"
 #include "apps/ensemble/tables/flat_table.h"
-#include "apps/ensemble/units/plan.h"
-#include "apps/ensemble/units/run.h"
+#include "libsim/protocol.h"
 
 namespace indet {
 
@@ -22,18 +23,21 @@ struct EnsembleTables {
   EnsembleTables();
 };
 
+/// The protocol of each row of `runs`, whose column `protocol` is text. Throws InputError where it is none.
+std::vector<sim::Protocol> protocols_of(const FlatTable& runs);
+
 /// What a plan asks for and what is there.
 struct Collection {
   EnsembleTables tables;
-  std::vector<std::string> missing;  ///< Units without a complete file of their configuration.
+  std::vector<std::string> missing;  ///< Members without a complete file of their configuration.
 };
 
-/// Reads the unit files of `folders` (parts of one ensemble). Throws InputError if a unit is in two folders
-/// that are not the same one.
-Collection collect_units(const Plan& plan, const std::vector<std::filesystem::path>& folders,
-                         const ProgressCallback& progress = {});
+/// Reads the member files of `folders` (parts of one ensemble). Throws InputError if a member is in two
+/// folders that are not the same one.
+Collection collect_members(const Plan& plan, const std::vector<std::filesystem::path>& folders,
+                           const ProgressCallback& progress = {});
 
-/// Reads of the file of a unit what collect_units would read, and forgets it. Throws as that does.
-void read_unit(const std::filesystem::path& path);
+/// Reads of the file of a member what collect_members would read, and forgets it. Throws as that does.
+void read_member(const std::filesystem::path& path);
 
 }  // namespace indet

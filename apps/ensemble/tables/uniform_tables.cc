@@ -46,7 +46,7 @@ constexpr std::array<AttributeColumn, 26> kAttributes = {{
      "the same for two halves of the uniform sample"},
 }};
 
-/// A column of the contacts that is a dataset of the unit file.
+/// A column of the contacts that is a dataset of the member file.
 struct TakenContacts {
   const char* column;
   const char* dataset;

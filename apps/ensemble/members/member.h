@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/ensemble/units/plan.h"
-#include "apps/ensemble/units/uniform_step.h"
+#include "apps/ensemble/members/plan.h"
+#include "apps/ensemble/members/uniform_step.h"
 #include "libindet/base/progress.h"
 #include "libindet/io/sampling_file.h"
 #include "libindet/io/simulation_file.h"
@@ -25,7 +25,7 @@ struct ExtremalForces {
 ExtremalForces count_extremal_forces(const ForceRanges& ranges);
 
 /// Everything that was found about one packing.
-struct UnitResult {
+struct MemberResult {
   Packing packing;
   std::optional<SimulationRecord> simulation;
   ForceRanges ranges;
@@ -41,7 +41,8 @@ struct UnitResult {
 /// thread. `first`: the cd1 packing that cd2 and md2 start from; where it is missing it is simulated. The
 /// result is the same either way. Throws InputError or LibraryError if there is no packing with balanced
 /// forces; Interrupted.
-UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& given,
-                        const std::optional<Packing>& first, const ProgressCallback& progress);
+MemberResult compute_member(const EnsembleConfig& config, const Member& member,
+                            const std::optional<Packing>& given, const std::optional<Packing>& first,
+                            const ProgressCallback& progress);
 
 }  // namespace indet

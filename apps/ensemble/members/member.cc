@@ -1,4 +1,6 @@
-#include "apps/ensemble/units/unit.h"
+#include "apps/ensemble/members/member.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,34 +24,37 @@ class Stopwatch {
 };
 
 sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& scene, const sim::World& world,
-                             const std::string& protocol, const ProgressCallback& progress) {
-  sim::SimulationOptions options = method_of(config, protocol);
+                             sim::Protocol protocol, const ProgressCallback& progress) {
+  sim::SimulationOptions options = simulation_options_of(config, protocol);
   options.time_limit = sim::default_time_limit(world, scene.height);
   if (const auto reason = options.defect(world)) throw InputError(*reason);
   sim::Simulation result = sim::simulate(world, {}, options, {.progress = progress});
   if (!result.polished.balanced)
-    throw LibraryError(protocol + ": the forces do not balance: " + result.polished.reason);
+    throw LibraryError(
+        fmt::format("{}: the forces do not balance: {}", to_string(protocol), result.polished.reason));
   return result;
 }
 
-void simulate_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& first,
-                   const ProgressCallback& progress, UnitResult& result) {
+void simulate_member(const EnsembleConfig& config, const Member& member, const std::optional<Packing>& first,
+                     const ProgressCallback& progress, MemberResult& result) {
   const Stopwatch watch;
-  const sim::Scene scene = scene_of(config, unit);
+  const sim::Scene scene = scene_of(config, member);
   sim::World world = sim::build(scene);
-  if (unit.protocol.back() == '2') {
-    const Packing start = first ? *first : run_protocol(config, scene, world, "cd1", progress).packing;
+  if (starts_from_cd1(member.protocol)) {
+    const Packing start =
+        first ? *first : run_protocol(config, scene, world, sim::Protocol::kCd1, progress).packing;
     world = sim::world_of(start, scene.friction);
     world.bring_to_rest();
   }
-  const sim::Simulation simulation = run_protocol(config, scene, world, unit.protocol, progress);
+  const sim::Simulation simulation = run_protocol(config, scene, world, member.protocol, progress);
   result.packing = simulation.packing;
-  result.packing.origin = {.protocol = unit.protocol, .seed = unit.seed, .config = unit.config};
-  result.simulation = record_of(simulation, method_of(config, unit.protocol));
+  result.packing.origin = {
+      .protocol = to_string(member.protocol), .seed = member.seed, .config = member.config};
+  result.simulation = record_of(simulation, simulation_options_of(config, member.protocol));
   result.seconds["simulate"] = watch.seconds();
 }
 
-void analyze_unit(const EnsembleConfig& config, const ProgressCallback& progress, UnitResult& result) {
+void analyze_member(const EnsembleConfig& config, const ProgressCallback& progress, MemberResult& result) {
   AnalyzeOptions options;
   options.progress = progress;
   {
@@ -79,24 +84,24 @@ WeightStates chain_of(const sim::PerturbEnsemble& ensemble, const Packing& packi
 }
 
 /// Perturb-and-resolve; returns its states.
-WeightStates sample_unit(const EnsembleConfig& config, const Unit& unit, const ProgressCallback& progress,
-                         UnitResult& result) {
+WeightStates sample_member(const EnsembleConfig& config, const Member& member,
+                           const ProgressCallback& progress, MemberResult& result) {
   if (config.sampling.samples <= 0 || !result.packing.has_simulated_forces()) return {};
   if (result.packing.contacts.empty()) return {};
   const Stopwatch watch;
   sim::PerturbOptions options = config.sampling;
-  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
+  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(member.seed, 0));
   const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(result.packing, options, progress);
   result.sampling = record_of(ensemble, options);
   result.seconds["sample"] = watch.seconds();
   return chain_of(ensemble, result.packing);
 }
 
-void sample_unit_uniformly(const EnsembleConfig& config, const Unit& unit, const WeightStates& chain,
-                           const ProgressCallback& progress, UnitResult& result) {
+void sample_member_uniformly(const EnsembleConfig& config, const Member& member, const WeightStates& chain,
+                             const ProgressCallback& progress, MemberResult& result) {
   const Stopwatch watch;
   UniformOptions options = config.uniform;
-  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(unit.seed, 0));
+  options.seed = static_cast<std::uint64_t>(std::max<std::int64_t>(member.seed, 0));
   options.progress = progress;
   result.uniform = sample_uniformly(result.packing, result.ranges, chain, options);
   result.seconds["sample_uniform"] = watch.seconds();
@@ -123,17 +128,18 @@ ExtremalForces count_extremal_forces(const ForceRanges& ranges) {
   return result;
 }
 
-UnitResult compute_unit(const EnsembleConfig& config, const Unit& unit, const std::optional<Packing>& given,
-                        const std::optional<Packing>& first, const ProgressCallback& progress) {
-  UnitResult result;
+MemberResult compute_member(const EnsembleConfig& config, const Member& member,
+                            const std::optional<Packing>& given, const std::optional<Packing>& first,
+                            const ProgressCallback& progress) {
+  MemberResult result;
   if (given) {
     result.packing = *given;
   } else {
-    simulate_unit(config, unit, first, progress, result);
+    simulate_member(config, member, first, progress, result);
   }
-  analyze_unit(config, progress, result);
-  const WeightStates chain = sample_unit(config, unit, progress, result);
-  if (unit.uniform) sample_unit_uniformly(config, unit, chain, progress, result);
+  analyze_member(config, progress, result);
+  const WeightStates chain = sample_member(config, member, progress, result);
+  if (member.uniform) sample_member_uniformly(config, member, chain, progress, result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "libindet/sampling/uniform_sampling.h"
 #include "libsim/perturb_sampling.h"
+#include "libsim/protocol.h"
 #include "libsim/scene.h"
 #include "libsim/simulate.h"
 
@@ -17,7 +18,7 @@ struct EnsembleConfig {
   sim::Scene scene;  ///< Its seed is that of each packing.
   std::int64_t first_seed = 0;
   std::int64_t seeds = 60;
-  std::vector<std::string> protocols = {"cd1", "cd2", "md1", "md2"};
+  std::vector<sim::Protocol> protocols = {sim::kSimulated.begin(), sim::kSimulated.end()};
   sim::MolecularDynamicsOptions molecular_dynamics = sim::stiff_preset();
   std::vector<std::filesystem::path> files;  ///< Packings that are there already.
   sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
@@ -28,10 +29,10 @@ struct EnsembleConfig {
 };
 
 /// One packing of an ensemble.
-struct Unit {
-  int number = 0;        ///< From 0, in the order of the tables.
-  std::string name;      ///< "cd1-0007", or the name of its file; its own file is units/NAME.h5.
-  std::string protocol;  ///< "file" for a packing that was there.
+struct Member {
+  int number = 0;    ///< From 0, in the order of the tables.
+  std::string name;  ///< "cd1-0007", or the name of its file; its own file is members/NAME.h5.
+  sim::Protocol protocol = sim::Protocol::kFile;
   std::int64_t seed = -1;
   std::filesystem::path source;  ///< Of a packing that was there.
   bool uniform = false;          ///< Also sampled uniformly.
@@ -42,9 +43,9 @@ struct Unit {
 
 struct Plan {
   std::string config;  ///< Of the ensemble, TOML.
-  std::vector<Unit> units;
+  std::vector<Member> members;
 
-  /// SHA-256 over names and hashes of all units.
+  /// SHA-256 over names and hashes of all members.
   std::string hash() const;
 };
 
@@ -52,18 +53,27 @@ struct Plan {
 /// two files have the same name, or there is nothing to do.
 Plan make_plan(const EnsembleConfig& config);
 
-/// The scene and the method of a simulated unit.
-sim::Scene scene_of(const EnsembleConfig& config, const Unit& unit);
-sim::SimulationOptions method_of(const EnsembleConfig& config, const std::string& protocol);
+/// "cd1-0007".
+std::string simulated_name(sim::Protocol protocol, std::int64_t seed);
 
-/// DIR/ensemble.toml: which units an ensemble has, so that parts can be joined and missing ones be named.
+/// The scene of a simulated member, and the options of its simulation.
+sim::Scene scene_of(const EnsembleConfig& config, const Member& member);
+sim::SimulationOptions simulation_options_of(const EnsembleConfig& config, sim::Protocol protocol);
+
+/// Throws InputError if the members of this folder lie in units/, where earlier versions put them.
+void check_layout(const std::filesystem::path& folder);
+
+/// FOLDER/ensemble.toml: which members an ensemble has, so that parts can be joined and missing ones be
+/// named.
 void write_plan(const std::filesystem::path& folder, const Plan& plan);
-/// Throws InputError. `config` of the units is not stored.
+/// Throws InputError. `config` of the members is not stored.
 Plan read_plan(const std::filesystem::path& folder);
 
-std::filesystem::path unit_path(const std::filesystem::path& folder, const Unit& unit);
-/// Those of all units in each of the folders, whether there is a file or not.
-std::vector<std::filesystem::path> unit_paths(const std::vector<std::filesystem::path>& folders,
-                                              const Plan& plan);
+/// FOLDER/members, with one file a member.
+std::filesystem::path members_folder(const std::filesystem::path& folder);
+std::filesystem::path member_path(const std::filesystem::path& folder, const std::string& name);
+/// Those of all members in each of the folders, whether there is a file or not.
+std::vector<std::filesystem::path> member_paths(const std::vector<std::filesystem::path>& folders,
+                                                const Plan& plan);
 
 }  // namespace indet

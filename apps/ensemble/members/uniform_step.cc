@@ -1,4 +1,4 @@
-#include "apps/ensemble/units/uniform_step.h"
+#include "apps/ensemble/members/uniform_step.h"
 
 #include <vector>
 

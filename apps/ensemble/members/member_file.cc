@@ -1,4 +1,4 @@
-#include "apps/ensemble/units/unit_file.h"
+#include "apps/ensemble/members/member_file.h"
 
 #include <fmt/format.h>
 
@@ -32,11 +32,11 @@ void write_counts(Hdf5File& file, const std::string& path, const ExtremalForces&
                         which)});
 }
 
-void write_ensemble_part(Hdf5File& file, const Unit& unit, const UnitResult& result) {
+void write_ensemble_part(Hdf5File& file, const Member& member, const MemberResult& result) {
   file.make_group("/ensemble");
-  file.set_attribute("/ensemble", "unit", unit.name);
-  file.set_attribute("/ensemble", "hash", unit.hash);
-  file.set_attribute("/ensemble", "config", unit.config);
+  file.set_attribute("/ensemble", "member", member.name);
+  file.set_attribute("/ensemble", "hash", member.hash);
+  file.set_attribute("/ensemble", "config", member.config);
   if (result.solver_d_R.size() > 0) {
     write_vector(
         file, "/ensemble/solver_d_R", result.solver_d_R,
@@ -52,8 +52,8 @@ void write_ensemble_part(Hdf5File& file, const Unit& unit, const UnitResult& res
 
 }  // namespace
 
-void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitResult& result,
-                const Provenance& provenance) {
+void write_member(const std::filesystem::path& path, const Member& member, const MemberResult& result,
+                  const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
   write_header(file);
   write_packing_part(file, result.packing);
@@ -61,7 +61,7 @@ void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitR
   write_ranges_part(file, result.ranges);
   if (result.sampling) write_sampling_part(file, *result.sampling);
   if (result.uniform) write_uniform_part(file, *result.uniform);
-  write_ensemble_part(file, unit, result);
+  write_ensemble_part(file, member, result);
   Provenance all = provenance;
   all.seconds = result.ranges.seconds;
   all.seconds.insert(result.seconds.begin(), result.seconds.end());
@@ -71,12 +71,12 @@ void write_unit(const std::filesystem::path& path, const Unit& unit, const UnitR
   remove_leftovers(path);
 }
 
-bool unit_is_done(const std::filesystem::path& path, const Unit& unit) {
+bool member_is_done(const std::filesystem::path& path, const Member& member) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
   try {
     const Hdf5File file = open_indet_file(path);
-    return file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == unit.hash;
+    return file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == member.hash;
   } catch (const InputError&) {
     return false;
   }

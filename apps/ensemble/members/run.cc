@@ -1,4 +1,4 @@
-#include "apps/ensemble/units/run.h"
+#include "apps/ensemble/members/run.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "apps/ensemble/units/unit_file.h"
+#include "apps/ensemble/members/member_file.h"
 #include "libindet/base/error.h"
 #include "libindet/base/worker_team.h"
 
@@ -25,18 +25,18 @@ class Batch {
   Batch(const EnsembleConfig& config, const Plan& plan, const std::filesystem::path& folder,
         const RunOptions& options)
       : config_(config), plan_(plan), folder_(folder), options_(options) {
-    const int last = options.last < 0 ? static_cast<int>(plan.units.size()) - 1 : options.last;
-    for (const Unit& unit : plan.units) {
-      if (unit.number < options.first || unit.number > last) continue;
-      if (unit_is_done(unit_path(folder, unit), unit)) {
+    const int last = options.last < 0 ? static_cast<int>(plan.members.size()) - 1 : options.last;
+    for (const Member& member : plan.members) {
+      if (member.number < options.first || member.number > last) continue;
+      if (member_is_done(member_path(folder, member.name), member)) {
         ++summary_.skipped;
       } else {
-        open_.push_back(&unit);
-        total_cost_ += unit.cost;
+        open_.push_back(&member);
+        total_cost_ += member.cost;
       }
     }
     std::stable_sort(open_.begin(), open_.end(),
-                     [](const Unit* a, const Unit* b) { return a->cost > b->cost; });
+                     [](const Member* a, const Member* b) { return a->cost > b->cost; });
   }
 
   RunSummary run() {
@@ -59,7 +59,7 @@ class Batch {
     if (stop_) throw Interrupted();
     if (failure) std::rethrow_exception(failure);
     std::sort(summary_.failures.begin(), summary_.failures.end(),
-              [](const UnitFailure& a, const UnitFailure& b) { return a.unit < b.unit; });
+              [](const MemberFailure& a, const MemberFailure& b) { return a.member < b.member; });
     return summary_;
   }
 
@@ -82,39 +82,39 @@ class Batch {
     }
   }
 
-  void work(const Unit& unit) {
+  void work(const Member& member) {
     try {
-      const UnitResult result =
-          compute_unit(config_, unit, source(unit), start(unit), [this](const Progress&) { return !stop_; });
+      const MemberResult result = compute_member(config_, member, source(member), start(member),
+                                                 [this](const Progress&) { return !stop_; });
       const std::scoped_lock lock(hdf5_);
-      write_unit(unit_path(folder_, unit), unit, result, options_.provenance);
+      write_member(member_path(folder_, member.name), member, result, options_.provenance);
     } catch (const Interrupted&) {
       return;
     } catch (const std::exception& error) {
       const std::scoped_lock lock(mutex_);
-      summary_.failures.push_back({unit.name, error.what()});
-      done_cost_ += unit.cost;
+      summary_.failures.push_back({member.name, error.what()});
+      done_cost_ += member.cost;
       return;
     }
     const std::scoped_lock lock(mutex_);
     ++summary_.done;
-    done_cost_ += unit.cost;
+    done_cost_ += member.cost;
   }
 
-  std::optional<Packing> source(const Unit& unit) {
-    if (unit.source.empty()) return std::nullopt;
+  std::optional<Packing> source(const Member& member) {
+    if (member.source.empty()) return std::nullopt;
     const std::scoped_lock lock(hdf5_);
-    return read_packing(unit.source);
+    return read_packing(member.source);
   }
 
   /// The cd1 packing of the same seed, if it is there already.
-  std::optional<Packing> start(const Unit& unit) {
-    if (unit.protocol != "cd2" && unit.protocol != "md2") return std::nullopt;
-    for (const Unit& other : plan_.units) {
-      if (other.protocol != "cd1" || other.seed != unit.seed) continue;
-      const std::filesystem::path path = unit_path(folder_, other);
+  std::optional<Packing> start(const Member& member) {
+    if (!starts_from_cd1(member.protocol)) return std::nullopt;
+    for (const Member& other : plan_.members) {
+      if (other.protocol != sim::Protocol::kCd1 || other.seed != member.seed) continue;
+      const std::filesystem::path path = member_path(folder_, other.name);
       const std::scoped_lock lock(hdf5_);
-      if (unit_is_done(path, other)) return read_packing(path);
+      if (member_is_done(path, other)) return read_packing(path);
     }
     return std::nullopt;
   }
@@ -123,7 +123,7 @@ class Batch {
   const Plan& plan_;
   const std::filesystem::path& folder_;
   const RunOptions& options_;
-  std::vector<const Unit*> open_;
+  std::vector<const Member*> open_;
   double total_cost_ = 0;
   std::mutex hdf5_;
   std::mutex mutex_;  ///< Guards the members below.
@@ -136,9 +136,9 @@ class Batch {
 
 }  // namespace
 
-RunSummary run_units(const EnsembleConfig& config, const Plan& plan, const std::filesystem::path& folder,
-                     const RunOptions& options) {
-  std::filesystem::create_directories(folder / "units");
+RunSummary compute_members(const EnsembleConfig& config, const Plan& plan,
+                           const std::filesystem::path& folder, const RunOptions& options) {
+  std::filesystem::create_directories(members_folder(folder));
   return Batch(config, plan, folder, options).run();
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "apps/ensemble/members/member.h"
+
+namespace indet {
+
+/// The file of one member is a file of `indet analyze` with /simulation, /sampling, /uniform, /bias, and
+///
+///     /ensemble  @member @hash @config; solver_d_R, solver_d_T f8[M]; extremal_R, solver_extremal_R i4[4, B]
+///
+/// All functions use HDF5: one thread at a time.
+void write_member(const std::filesystem::path& path, const Member& member, const MemberResult& result,
+                  const Provenance& provenance);
+
+/// True if the file is there, opens, is complete and carries the hash of the member.
+bool member_is_done(const std::filesystem::path& path, const Member& member);
+
+}  // namespace indet

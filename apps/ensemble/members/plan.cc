@@ -1,0 +1,246 @@
+#include "apps/ensemble/members/plan.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "apps/bridge/simulation_values.h"
+#include "libindet/base/error.h"
+#include "libindet/base/version.h"
+#include "libindet/io/packing_file.h"
+#include "libindet/io/sha256.h"
+#include "libindet/io/whole_file.h"
+#include "libsim/scene_toml.h"
+
+namespace indet {
+namespace {
+
+using sim::Protocol;
+
+std::string digest(const std::string& text) {
+  Sha256 sha;
+  sha.update(text.data(), text.size());
+  return sha.hex();
+}
+
+/// What is done with every packing.
+std::string analysis_toml(const EnsembleConfig& config, std::int64_t seed) {
+  std::string text =
+      fmt::format("[analysis]\nstates = \"canonical\"\nsolver_states = {}\n", config.solver_states);
+  const sim::PerturbOptions& s = config.sampling;
+  text += fmt::format("[sampling]\nsamples = {}\n", s.samples);
+  if (s.samples > 0) {
+    text += fmt::format("width = {}\nchains = {}\ndistance = {}\ntolerance = {}\nsweeps = {}\n", s.width,
+                        s.chains, s.distance, s.solver.tolerance, s.solver.max_sweeps);
+    if (seed >= 0) text += fmt::format("seed = {}\n", seed);
+  }
+  return text;
+}
+
+/// Added for the packings that are sampled uniformly: the hashes of the others do not know of it.
+std::string uniform_toml(const UniformOptions& u, std::int64_t seed) {
+  std::string text = fmt::format("[uniform]\neffective = {}\nlargest_rhat = {}\nchains = {}\nlimit = {}\n",
+                                 u.effective, u.largest_rhat, u.chains, u.limit);
+  if (seed >= 0) text += fmt::format("seed = {}\n", seed);
+  return text;
+}
+
+void add_uniform_sampling(const EnsembleConfig& config, double disks, Member& member) {
+  member.uniform = true;
+  member.config += uniform_toml(config.uniform, std::max<std::int64_t>(member.seed, 0));
+  member.cost += 0.6 * std::pow(disks / 95, 3);
+}
+
+/// Seconds on one core, measured with 95 disks (docs/simulation.md, docs/ensemble.md); the exponents fit runs
+/// with 95 to 400. It orders the members and feeds the estimate of the remaining time.
+double cost_of(const EnsembleConfig& config, Protocol protocol, double disks) {
+  const double size = disks / 95;
+  const double analysis = config.solver_states ? 0.31 : 0.21;
+  const bool implicit = config.molecular_dynamics.gamma > 1e4;
+  double rest = 0.0034 * config.sampling.samples;
+  if (protocol == Protocol::kCd1) rest += 0.5;
+  if (protocol == Protocol::kCd2) rest += 0.25;
+  if (protocol == Protocol::kMd1) rest += implicit ? 1.2 : 0.7;
+  if (protocol == Protocol::kMd2) rest += 0.13;
+  return analysis * std::pow(size, 3) + rest * std::pow(size, 1.5);
+}
+
+/// `number` of its protocol, from 0.
+Member simulated_member(const EnsembleConfig& config, Protocol protocol, std::int64_t number) {
+  const std::int64_t seed = config.first_seed + number;
+  Member member;
+  member.name = simulated_name(protocol, seed);
+  member.protocol = protocol;
+  member.seed = seed;
+  member.cost = cost_of(config, protocol, config.scene.disks);
+  const sim::Scene scene = scene_of(config, member);
+  member.config = fmt::format("version = \"{}\"\nprotocol = \"{}\"\n", version(), to_string(protocol));
+  member.config += sim::to_toml(scene) + to_toml(simulation_options_of(config, protocol));
+  if (starts_from_cd1(protocol))
+    member.config += "# start\n" + to_toml(simulation_options_of(config, Protocol::kCd1));
+  member.config += analysis_toml(config, seed);
+  if (number < config.uniform_seeds) add_uniform_sampling(config, config.scene.disks, member);
+  return member;
+}
+
+Member member_of_file(const EnsembleConfig& config, const std::filesystem::path& path, std::int64_t number) {
+  Member member;
+  member.name = path.stem().string();
+  member.source = path;
+  const Hdf5File file = open_indet_file(path);
+  member.seed = file.integer_attribute("/parameters", "seed");
+  const auto disks = static_cast<double>(file.shape("/particles/disks/id", 1)[0]);
+  member.cost = cost_of(config, Protocol::kFile, disks);
+  member.config = fmt::format("version = \"{}\"\nfile = \"{}\"\n", version(),
+                              file.sha256({"/contacts", "/parameters", "/particles", "/walls"}));
+  member.config += analysis_toml(config, std::max<std::int64_t>(member.seed, 0));
+  if (number < config.uniform_seeds) add_uniform_sampling(config, disks, member);
+  return member;
+}
+
+std::string config_of(const EnsembleConfig& config) {
+  std::string text = fmt::format("version = \"{}\"\nfirst_seed = {}\nseeds = {}\nprotocols = [", version(),
+                                 config.first_seed, config.protocols.empty() ? 0 : config.seeds);
+  for (const Protocol protocol : config.protocols) text += fmt::format("\"{}\", ", to_string(protocol));
+  text += "]\n";
+  if (!config.protocols.empty()) text += sim::to_toml(config.scene.resolved());
+  for (const Protocol protocol : config.protocols)
+    text += fmt::format("# {}\n{}", to_string(protocol), to_toml(simulation_options_of(config, protocol)));
+  text += analysis_toml(config, -1);
+  if (config.uniform_seeds > 0)
+    text += uniform_toml(config.uniform, -1) + fmt::format("packings = {}\n", config.uniform_seeds);
+  return text;
+}
+
+}  // namespace
+
+std::string simulated_name(Protocol protocol, std::int64_t seed) {
+  return fmt::format("{}-{:04}", to_string(protocol), seed);
+}
+
+std::string Plan::hash() const {
+  std::string text;
+  for (const Member& member : members) text += member.name + " " + member.hash + "\n";
+  return digest(text);
+}
+
+sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {
+  sim::Scene scene = config.scene;
+  scene.seed = static_cast<std::uint64_t>(member.seed);
+  return scene.resolved();
+}
+
+sim::SimulationOptions simulation_options_of(const EnsembleConfig& config, Protocol protocol) {
+  sim::SimulationOptions options;
+  if (is_simulated_by(protocol, sim::Simulator::kMolecularDynamics)) {
+    options.simulator = sim::Simulator::kMolecularDynamics;
+    options.molecular_dynamics = config.molecular_dynamics;
+  } else if (protocol == Protocol::kCd2) {
+    options.contact_dynamics = sim::from_rest_preset();
+  }
+  return options;
+}
+
+Plan make_plan(const EnsembleConfig& config) {
+  Plan plan;
+  if (!config.protocols.empty()) {
+    if (const auto defect = config.scene.defect()) throw InputError(*defect);
+    for (const Protocol protocol : config.protocols) {
+      for (std::int64_t i = 0; i < config.seeds; ++i)
+        plan.members.push_back(simulated_member(config, protocol, i));
+    }
+  }
+  for (const std::filesystem::path& path : config.files)
+    plan.members.push_back(member_of_file(config, path, &path - config.files.data()));
+  if (plan.members.empty()) throw InputError("there is nothing to do: no seed and no file");
+  std::set<std::string> names;
+  for (Member& member : plan.members) {
+    member.number = static_cast<int>(&member - plan.members.data());
+    member.hash = digest(member.config);
+    if (!names.insert(member.name).second)
+      throw InputError(fmt::format("two packings have the name {}", member.name));
+  }
+  plan.config = config_of(config);
+  return plan;
+}
+
+void check_layout(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::filesystem::path old = folder / "units";
+  if (!std::filesystem::is_directory(old, ignored)) return;
+  if (std::filesystem::exists(members_folder(folder), ignored)) return;
+  throw InputError(
+      fmt::format("{} is an ensemble of an earlier indet; rename {} to {} and run the same indet ensemble "
+                  "command again, which takes what is there",
+                  folder.string(), old.string(), members_folder(folder).string()));
+}
+
+void write_plan(const std::filesystem::path& folder, const Plan& plan) {
+  std::string text =
+      "# The packings of this ensemble. Written by indet; indet merge and indet report read it.\n";
+  text += fmt::format("config = '''\n{}'''\n", plan.config);
+  for (const Member& member : plan.members) {
+    text +=
+        fmt::format("[[member]]\nname = \"{}\"\nprotocol = \"{}\"\nseed = {}\ncost = {:.3f}\nhash = \"{}\"\n",
+                    member.name, to_string(member.protocol), member.seed, member.cost, member.hash);
+  }
+  write_whole_file(folder / "ensemble.toml", text);
+}
+
+Plan read_plan(const std::filesystem::path& folder) {
+  check_layout(folder);
+  const std::string path = (folder / "ensemble.toml").string();
+  if (!std::filesystem::exists(path)) {
+    throw InputError(
+        fmt::format("{} is not the folder of an ensemble: it has no ensemble.toml", folder.string()));
+  }
+  toml::table table;
+  try {
+    table = toml::parse_file(path);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+  }
+  Plan plan;
+  const auto fail = [&](const char* what) { throw InputError(fmt::format("{}: {}", path, what)); };
+  plan.config = table["config"].value_or(std::string());
+  const toml::array* members = table["member"].as_array();
+  if (members == nullptr) fail("lists no members; the indet ensemble command that made it writes it anew");
+  for (const toml::node& node : *members) {
+    const toml::table* entry = node.as_table();
+    if (entry == nullptr) fail("a member is not a table");
+    Member member;
+    member.number = static_cast<int>(plan.members.size());
+    member.name = (*entry)["name"].value_or(std::string());
+    member.seed = (*entry)["seed"].value_or(std::int64_t{-1});
+    member.cost = (*entry)["cost"].value_or(0.0);
+    member.hash = (*entry)["hash"].value_or(std::string());
+    if (member.name.empty() || member.name.find('/') != std::string::npos || member.hash.size() != 64)
+      fail("a member has no name or no hash");
+    const auto protocol = sim::protocol_from((*entry)["protocol"].value_or(std::string()));
+    if (!protocol) fail("a member has no protocol, or one that is unknown");
+    member.protocol = *protocol;
+    plan.members.push_back(member);
+  }
+  return plan;
+}
+
+std::filesystem::path members_folder(const std::filesystem::path& folder) { return folder / "members"; }
+
+std::filesystem::path member_path(const std::filesystem::path& folder, const std::string& name) {
+  return members_folder(folder) / (name + ".h5");
+}
+
+std::vector<std::filesystem::path> member_paths(const std::vector<std::filesystem::path>& folders,
+                                                const Plan& plan) {
+  std::vector<std::filesystem::path> paths;
+  for (const std::filesystem::path& folder : folders) {
+    for (const Member& member : plan.members) paths.push_back(member_path(folder, member.name));
+  }
+  return paths;
+}
+
+}  // namespace indet
