@@ -129,7 +129,7 @@ class EnsembleTest(program.ProgramTest):
         rows = np.flatnonzero(runs["uniform"] == b"converged")
         self.assertGreater(len(rows), 0)
         for row in rows:
-            name = f"e/members/{runs["member"][row].decode()}.h5"
+            name = f"e/members/{runs['member'][row].decode()}.h5"
             self.run_indet("sample", name, "--method", "uniform", "--states", "1000000", "-o", "u.h5")
             self.run_indet("sample", name, "--samples", "60", "-o", "p.h5")
             mine = contacts["run"] == row
