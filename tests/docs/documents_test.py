@@ -4,7 +4,8 @@ In a document, a block whose first line is "# NAME" (or "// NAME"; NAME has an e
 colon and a remark) is a file. In a block of language "console" the lines that begin with "$ " are commands, and the
 lines after a command are its output. Compared are words exactly and numbers to the digits that stand there; "…" on a
 line of its own stands for any lines. What differs between machines or libraries is compared as "some number":
-residuals (anything below 1e-6), times, pivots, digests.
+residuals (anything below 1e-6), times, pivots, digests, and what a random walk found, whose coordinates hang on the
+rounding of a decomposition.
 
 Arguments: the indet executable, the folder with the data of the tests, then documents. Those given in one run share a
 folder, in their order.
@@ -27,9 +28,14 @@ NUMBER = re.compile(r"[-+]?(?:inf|\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 VARIES = re.compile(r"\d+ linear programs, \d+ pivots|\d+ extremal states|\d+ objectives have only one|[\d.]+ s\b|"
                     r"\b[0-9a-f]{64}\b|\b[0-9a-f]{12}(-dirty)?\b|\d+ checks")
 
+RANDOM = re.compile(r"uniform: r = |converged after \d+ sweeps|simulated state: .* from the centre|inscribed ball: |"
+                    r"log volume: ")
+
 
 def pieces(line):
     """A line as words and numbers; those that vary from machine to machine become "#"."""
+    if RANDOM.match(line):
+        line = NUMBER.sub("#", line).replace("T of contact", "R of contact")
     line = VARIES.sub(lambda match: NUMBER.sub("#", match.group(0)) if " " in match.group(0) else "#", line)
     result = []
     position = 0
