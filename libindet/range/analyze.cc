@@ -54,6 +54,7 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   search.lp = options.lp;
   search.threads = options.threads;
   search.canonical_states = options.canonical_states;
+  search.solver_states = options.solver_states;
   if (options.progress) {
     search.progress = [&options](std::int64_t settled, std::int64_t total) {
       return options.progress({"force ranges", settled, total, {}});
