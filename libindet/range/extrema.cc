@@ -45,7 +45,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
       Component& component = is_tangential ? pair.second : pair.first;
       // A component may be determined although the other one of its contact is not.
       const Objective objective = make_objective(block.set, component.on_edges);
-      if (objective.along_z.norm() <= tolerance::kReducedCost) continue;
+      if (objective.along_z.norm() <= tolerance::kConstantComponent) continue;
       result.components.push_back(std::move(component));
       result.names.emplace_back(ContactId(contact), is_tangential);
     }
@@ -141,7 +141,7 @@ class ExtremaFinder {
         wanted = false;
         ++settled_;
         const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
-        const bool is_ray = end.infeasibility() <= tolerance::kPrimalResidual;
+        const bool is_ray = end.infeasibility() <= tolerance::kRayResidual;
         extrema_.claim(row, column) = is_ray ? Outcome::kUnbounded : Outcome::kImprecise;
         extrema_.ray(row, column) = states_.add_ray(number, end.x.head(set.inequalities()));
         extrema_.ray_residual(row, column) = end.infeasibility();

@@ -16,7 +16,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Where the simulated force lies between minimum (0) and maximum (1) [39].
 double relative_position(double simulated, double minimum, double maximum, double force_unit) {
   const double width = maximum - minimum;
-  if (!std::isfinite(width) || !(width > tolerance::kSliding * force_unit)) return kNaN;
+  if (!std::isfinite(width) || !(width > tolerance::kPointRange * force_unit)) return kNaN;
   return (simulated - minimum) / width;
 }
 
