@@ -85,7 +85,7 @@ std::vector<MovingDisk> moving_disks(const ForceRanges& ranges) {
   std::vector<MovingDisk> disks;
   for (Eigen::Index i = 0; i < ranges.motion.rows(); ++i) {
     const Vector3 motion = ranges.motion.row(i).transpose();
-    if (motion.norm() > tolerance::kReducedCost) disks.push_back({static_cast<int>(i), motion});
+    if (motion.norm() > tolerance::kMotionEntry) disks.push_back({static_cast<int>(i), motion});
   }
   std::stable_sort(disks.begin(), disks.end(), [](const MovingDisk& a, const MovingDisk& b) {
     return a.motion.norm() > b.motion.norm();
@@ -166,7 +166,7 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
     const Eigen::Index k = order[i];
     Eigen::Array4d value = ranges.value.row(k).transpose() / ranges.force_unit;
     // 4e-15 is rounding around 0; the file has the digits.
-    for (double& v : value) v = std::abs(v) < tolerance::kSliding ? 0 : v;
+    for (double& v : value) v = std::abs(v) < tolerance::kPrintedZero ? 0 : v;
     fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
                contact_name(packing, ContactId(k)), value[kMinR], value[kMaxR], value[kMinT], value[kMaxT]);
   }

@@ -26,10 +26,11 @@ namespace {
 std::string describe_ray(const Packing& packing, const ForcePolytope& polytope) {
   Eigen::VectorXd forces = polytope.problem.state(polytope.ray).value();
   forces /= forces.lpNorm<Eigen::Infinity>();
-  for (double& force : forces) force = std::abs(force) < tolerance::kRay ? 0 : force;  // rounding around 0
+  for (double& force : forces)
+    force = std::abs(force) < tolerance::kRayEntry ? 0 : force;  // rounding around 0
   std::vector<int> growing;
   for (int k = 0; k < packing.contact_count(); ++k)
-    if (forces[2 * k] > tolerance::kRay) growing.push_back(k);
+    if (forces[2 * k] > tolerance::kRayEntry) growing.push_back(k);
   std::stable_sort(growing.begin(), growing.end(),
                    [&](int a, int b) { return forces[2 * a] > forces[2 * b]; });
   constexpr std::size_t kShown = 6;
@@ -145,7 +146,7 @@ void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findin
     const InternalForces state(states.col(i));
     const double largest = state.value().size() > 0 ? state.value().lpNorm<Eigen::Infinity>() : 0.0;
     const double allowed =
-        units.weights(InternalForce(tolerance::kPrimalResidual * std::max(1.0, largest))).value();
+        units.weights(InternalForce(tolerance::kSampleResidual * std::max(1.0, largest))).value();
     const double residual = equilibrium_residual(packing, units.scene(state)).cwiseAbs().maxCoeff();
     f.worst_residual = std::max(f.worst_residual, residual);
     if (!(residual <= allowed)) {

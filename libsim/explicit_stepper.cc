@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet::sim {
 namespace {
 
@@ -272,8 +274,8 @@ double stiffness_factor(const World& world) {
   const double smallest = *std::min_element(world.radius.begin(), world.radius.end());
   double factor = 0;
   for (int i = 0; i < world.size(); ++i) {
-    const double around =
-        std::floor(std::numbers::pi / std::asin(smallest / (world.radius[i] + smallest)) + 1e-9);
+    const double around = std::floor(std::numbers::pi / std::asin(smallest / (world.radius[i] + smallest)) +
+                                     tolerance::kWholeNumber);
     double response = 1 / world.mass[i];
     if (world.friction.any())
       response = std::max(response, world.radius[i] * world.radius[i] / world.inertia[i]);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
 #include "libsim/contact_solver.h"
 #include "libsim/force_law.h"
 #include "libsim/neighbours.h"
@@ -37,7 +38,8 @@ struct ImplicitOptions {
   std::optional<SpringLaw> springs;  ///< Without: rigid.
   RigidLaw rigid;
   int max_sweeps = 300;
-  double tolerance = 1e-6;  ///< Largest change of a contact force in a sweep, in units of force (mg).
+  double tolerance =
+      tolerance::kSweepChange;  ///< Largest change of a contact force in a sweep, in units of force (mg).
   /// The tolerance is loosened to this fraction of the largest change of a contact force in the previous
   /// step: while forces change by 1 mg a step, an error of 1e-3 mg is of no account. Springs correct it in
   /// the next step; rigid contacts do not.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libindet/base/progress.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/packing/packing.h"
 #include "libsim/polish.h"
 #include "libsim/static_solver.h"
@@ -34,10 +35,10 @@ struct PerturbOptions {
   /// A solution is taken once balanced forces are this close to it (mg, norm over all contacts), or once the
   /// sweeps change it by less than the solver's tolerance.
   double distance = 0.3;
-  StaticOptions solver = {.tolerance = 1e-6, .max_sweeps = 50000};
+  StaticOptions solver = {.tolerance = tolerance::kSweepChange, .max_sweeps = 50000};
   PolishOptions polish = {};
-  double accept_residual =
-      1e-9;  ///< A polished solution is accepted if it balances, and lies in the cones, to this (mg).
+  double accept_residual = tolerance::kAcceptedResidual;  ///< A polished solution is accepted if it balances,
+                                                          ///< and lies in the cones, to this (mg).
 
   std::optional<std::string> defect() const;
 };

@@ -94,7 +94,7 @@ class LeastChange {
     Sparse normal = matrix_ * Sparse(matrix_.transpose());
     Sparse shift(normal.rows(), normal.cols());
     shift.setIdentity();
-    normal += kShift * shift;
+    normal += tolerance::kNormalShift * shift;
     cholesky_.compute(normal);
   }
 
@@ -118,7 +118,6 @@ class LeastChange {
   }
 
  private:
-  static constexpr double kShift = 1e-10;
   static constexpr int kRefinements = 12;
 
   struct Direction {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
 #include "libindet/packing/packing.h"
 
 namespace indet::sim {
@@ -22,11 +23,11 @@ namespace indet::sim {
 struct PolishOptions {
   /// A raw contact slides if μR − |T| ≤ sliding · max(R, 1). Gauss–Seidel puts sliding contacts on the limit
   /// exactly; springs leave the rounding of their stretch.
-  double sliding = 1e-9;
+  double sliding = tolerance::kPolishSliding;
   /// A contact transmits force if R > transmitting (internal unit); the others leave the packing.
-  double transmitting = 1e-9;
-  int max_rounds = 50;      ///< Of the active set.
-  double residual = 1e-12;  ///< Balanced means at most this (internal unit).
+  double transmitting = tolerance::kPolishTransmitting;
+  int max_rounds = 50;                           ///< Of the active set.
+  double residual = tolerance::kPolishResidual;  ///< Balanced means at most this (internal unit).
 };
 
 struct Polished {

@@ -8,6 +8,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet::sim {
 namespace {
@@ -113,7 +114,7 @@ std::optional<std::string> Scene::defect() const {
     return fmt::format("funnel_angle must be between 0 and 90 degrees, but is {}", funnel_angle);
   }
   for (const Wall& w : walls) {
-    if (!finite(w.point.sum()) || !(std::abs(w.normal.norm() - 1) < 1e-6)) {
+    if (!finite(w.point.sum()) || !(std::abs(w.normal.norm() - 1) < tolerance::kNormalLength)) {
       return fmt::format("wall \"{}\": its normal must have length 1", w.name);
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libindet/base/progress.h"
+#include "libindet/base/tolerances.h"
 #include "libsim/stepper.h"
 
 namespace indet::sim {
@@ -14,9 +15,9 @@ namespace indet::sim {
 struct StopCriteria {
   /// Static: for more than `calm_steps` steps, the kinetic energy per disk stays below `kinetic_energy`, and
   /// the forces balance to `residual` on every disk.
-  double kinetic_energy = 1e-12;
+  double kinetic_energy = tolerance::kRestEnergy;
   int calm_steps = 50;
-  double residual = 1e-4;
+  double residual = tolerance::kRestForce;
   double time_limit = 0;  ///< Simulated time.
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet::sim {
 namespace {
@@ -41,9 +42,6 @@ double step_of(const World& world, const SimulationOptions& options, const Units
   if (md.dt > 0) return md.dt;
   return is_implicit(md) ? kImplicitStep : explicit_step(world, md, units);
 }
-
-/// ImplicitOptions::loosening of molecular dynamics.
-constexpr double kLoosening = 1e-3;
 
 using Reason = std::optional<std::string>;
 
@@ -127,7 +125,7 @@ std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<Cont
                                                            .rigid = {},
                                                            .max_sweeps = md.max_sweeps,
                                                            .tolerance = md.tolerance,
-                                                           .loosening = kLoosening});
+                                                           .loosening = tolerance::kSweepLoosening});
 }
 
 Simulation simulate(const World& start, const std::vector<ContactState>& contacts,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
 #include "libsim/explicit_stepper.h"
 #include "libsim/implicit_stepper.h"
 #include "libsim/polish.h"
@@ -16,10 +17,10 @@ namespace indet::sim {
 /// Contact dynamics: rigid disks. Times in units of √(r_max/g), forces in mg (world.h).
 struct ContactDynamicsOptions {
   double dt = 5e-3;
-  double tolerance = 1e-6;  ///< Largest change of a contact force in the last sweep.
-  int max_sweeps = 300;     ///< A step; fewer than 100 are not enough to settle.
+  double tolerance = tolerance::kSweepChange;  ///< Largest change of a contact force in the last sweep.
+  int max_sweeps = 300;                        ///< A step; fewer than 100 are not enough to settle.
   RigidLaw law;
-  double residual = 1e-4;  ///< A state is static if its raw forces balance to this.
+  double residual = tolerance::kRestForce;  ///< A state is static if its raw forces balance to this.
 };
 
 /// For runs that start from F = 0 at rest, cd2: without impulses to start from, 300 sweeps leave the first
@@ -39,12 +40,13 @@ struct MolecularDynamicsOptions {
   double k = 1.2e6;
   double gamma = 558;
   Damping damping = Damping::kAutomatic;
-  double dt = 0;            ///< 0: half the stability bound (explicit), 1e-3 (implicit).
-  double tolerance = 1e-7;  ///< Of the implicit damping: largest change of a contact force in the last sweep.
+  double dt = 0;  ///< 0: half the stability bound (explicit), 1e-3 (implicit).
+  double tolerance = tolerance::kFineSweepChange;  ///< Of the implicit damping: largest change of a contact
+                                                   ///< force in the last sweep.
   int max_sweeps = 1000;
   /// A state is static if its elastic forces balance to this. Rounding of the positions alone leaves about
   /// 1e-7 where k = 1.2e6.
-  double residual = 1e-6;
+  double residual = tolerance::kRestSpringForce;
 };
 
 /// γ = 558: two disks of mean mass collide with a restitution of 0.3. γ = 7.7e4: the paper's damping.
@@ -55,7 +57,7 @@ struct SimulationOptions {
   Simulator simulator = Simulator::kContactDynamics;
   ContactDynamicsOptions contact_dynamics;
   MolecularDynamicsOptions molecular_dynamics;
-  double kinetic_energy = 1e-12;  ///< Per disk, mg r_max: below it a state may be static.
+  double kinetic_energy = tolerance::kRestEnergy;  ///< Per disk, mg r_max: below it a state may be static.
   int calm_steps = 50;
   double time_limit = 0;  ///< > 0.
   PolishOptions polish = {};

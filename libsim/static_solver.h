@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "libindet/base/tolerances.h"
 #include "libindet/packing/packing.h"
 
 namespace indet::sim {
@@ -18,7 +19,7 @@ namespace indet::sim {
 struct StaticOptions {
   /// Stop once no force component changes by more than this in a sweep (internal unit of force). The
   /// imbalance that is left is larger by about a factor of 10.
-  double tolerance = 1e-7;
+  double tolerance = tolerance::kFineSweepChange;
   int max_sweeps = 200000;
 };
 

@@ -1,32 +1,56 @@
 #pragma once
 
-/// All tolerances of indet, with their meaning and unit. Forces inside the library are dimensionless, in
-/// units of the packing's force unit (mg, the mean weight of a disk, unless the scene names another), and the
-/// rows of the contact matrix are unit normals and tangents, so that "dimensionless" below means "in mg".
+/// All tolerances of indet, each with its one meaning, its unit and what it is relative to. "Internal unit"
+/// is the packing's own unit of force (Packing::internal_force_unit), in which the library computes; the rows
+/// of the contact matrix are unit normals and tangents, and x are strengths of the cones' edges, so that
+/// lengths and rates without a unit are of order one. "Workable" is the range within which results are the
+/// same but for what the tolerance decides; where none is given, a factor of 10 either way changes nothing.
 namespace indet::tolerance {
+
+// Contacts.
 
 /// ε of the paper (Sec. III A): a contact slides if μR − |T| < ε mg and transmits nothing if R, |T| < ε mg.
 /// Workable: 1e-12 … 1e-6; below 1e-12 rounding hides sliding contacts, above 1e-6 others are taken for
 /// sliding.
 inline constexpr double kSliding = 1e-9;
 
+/// A contact with a Coulomb limit μR up to this (internal unit) has no mobilisation |T|/μR.
+inline constexpr double kCoulombLimit = 1e-9;
+
 /// A unit normal may differ from length 1 by this much, and from the direction of the centres by this angle
 /// (radian). Normals of other programs are printed with as few as six digits.
 inline constexpr double kNormalLength = 1e-6;
 inline constexpr double kNormalDirection = 1e-4;
+
+/// Default of --balance-tol: largest force or torque residual of an imported packing with known forces, in
+/// mg.
+inline constexpr double kBalance = 1e-6;
+
+// Dumps of LAMMPS.
+
+/// Contact points of one wall: their normals differ by less than this (radian), and they lie this near to one
+/// line (relative to the largest radius).
+inline constexpr double kSameWall = 1e-4;
+
+/// Two printings of one force agree to this, relative to it: six digits.
+inline constexpr double kPrintedForce = 1e-5;
+
+/// A force along z up to this, relative to the force in the plane, is rounding.
+inline constexpr double kOutOfPlane = 1e-9;
+
+/// Tangential parts of normal forces, and normal parts of tangential ones, are ignored silently up to this
+/// (mg).
+inline constexpr double kDiscardedForce = 1e-6;
+
+// Rank, dimension and shape of the polytope.
 
 /// A singular value of the dimensionless contact matrix below kRankReject · σ_max counts as zero; one between
 /// kNoise and kRankAccept makes the rank ambiguous, and every result of that packing `imprecise`.
 inline constexpr double kRankReject = 1e-13;
 inline constexpr double kRankAccept = 1e-11;
 
-/// Largest residual, relative to max(1, ‖F‖∞) in mg, with which a recomputed vertex counts as certified:
-/// equilibrium (‖cF + w‖∞), contact conditions (negative part of μR ± T, R) and wrong-signed reduced costs.
-inline constexpr double kPrimalResidual = 1e-10;
-inline constexpr double kDualResidual = 1e-9;
-
-/// A half-plane whose slack cannot exceed this (mg, relative to max(1, ‖F1‖∞)) anywhere in F holds with
-/// equality everywhere (it lowers dim F); F is empty if some slack must be below minus this. Parts of a
+/// A half-plane whose slack cannot exceed this (internal unit, relative to max(1, ‖F1‖∞)) anywhere in F holds
+/// with equality everywhere (it lowers dim F); F is empty if some slack must be below minus this. Parts of a
 /// packing may be this much lighter than the mean. Between this and kNoise the decision is doubtful, and
 /// every result `imprecise`.
 inline constexpr double kImplicitEquality = 1e-12;
@@ -36,25 +60,228 @@ inline constexpr double kImplicitEquality = 1e-12;
 /// 1e-16 … 1e-15.
 inline constexpr double kNoise = 1e-14;
 
-/// GLPK's own feasibility and optimality tolerances. Its answer is only a proposal (a basis), from which we
-/// recompute.
-inline constexpr double kLpFeasibility = 1e-10;
-inline constexpr double kLpOptimality = 1e-10;
+/// Load (internal unit, relative to max(1, ‖F1‖∞)) that no contact forces balance, above which the packing
+/// cannot stand.
+inline constexpr double kUnbalancedLoad = 1e-10;
 
-/// An objective settled by a vertex: reduced costs above −kReducedCost (dimensionless) count as non-negative,
-/// those below kReducedCost in magnitude as zero when the uniqueness of the extremal state is decided.
-inline constexpr double kReducedCost = 1e-9;
+/// A multiplier of the interior point's linear program closes its half-plane above this, relative to the
+/// largest multiplier.
+inline constexpr double kClosingMultiplier = 1e-9;
 
-/// Two values of one objective (mg, relative to max(1, |value|)) count as equal when it is asked whether a
-/// vertex attains the optimum.
-inline constexpr double kTie = 1e-10;
+/// An entry of a virtual motion up to this, relative to the largest, says that the disk is at rest.
+inline constexpr double kMotionEntry = 1e-9;
+
+/// Where rational arithmetic repeats a motion or a ray, an entry of the guess up to this (relative to the
+/// largest, which is 1) is held at exactly 0.
+inline constexpr double kExactZero = 1e-9;
+
+/// An edge of a cone whose strength changes by up to this along an edge of the polytope is not coupled to it;
+/// uncoupled parts are blocks.
+inline constexpr double kCoupling = 1e-9;
+
+/// A force component with a gradient up to this over a block (dimensionless) is determined.
+inline constexpr double kConstantComponent = 1e-9;
 
 /// An objective is unbounded if it grows by more than this per unit of Σx along a direction of the recession
 /// cone (dimensionless).
 inline constexpr double kRay = 1e-9;
 
-/// Default of --balance-tol: largest force or torque residual of an imported packing with known forces, in
-/// mg.
-inline constexpr double kBalance = 1e-6;
+/// Violation of the recession cone by a ray with Σx = 1 up to which it counts as one.
+inline constexpr double kRayResidual = 1e-10;
+
+/// A force of a ray up to this, relative to the largest, is told as 0.
+inline constexpr double kRayEntry = 1e-9;
+
+// Results.
+
+/// Largest residual, relative to max(1, ‖F‖∞) in internal units, with which a recomputed vertex counts as
+/// certified: equilibrium (‖cF + w‖∞), contact conditions (negative part of μR ± T, R) and wrong-signed
+/// reduced costs.
+inline constexpr double kPrimalResidual = 1e-10;
+inline constexpr double kDualResidual = 1e-9;
+
+/// A range up to this wide (mg; among samples internal unit) is a point: no force has a relative position R*,
+/// T* in it.
+inline constexpr double kPointRange = 1e-9;
+
+/// A force up to this (mg) is printed as 0; files have all digits.
+inline constexpr double kPrintedZero = 1e-9;
+
+// Linear programs and the search over their vertices.
+
+/// GLPK's own feasibility and optimality tolerances. Its answer is only a proposal (a basis), from which we
+/// recompute.
+inline constexpr double kLpFeasibility = 1e-10;
+inline constexpr double kLpOptimality = 1e-10;
+
+/// Sign of a reduced cost (dimensionless): above −kReducedCost it counts as non-negative, so that the vertex
+/// is optimal; up to kReducedCost as zero, so that the optimal face may be more than the vertex. Workable:
+/// 1e-12 … 1e-7.
+inline constexpr double kReducedCost = 1e-9;
+
+/// Two values of one objective (internal unit, relative to max(1, |value|)) count as equal when it is asked
+/// whether a vertex attains the optimum.
+inline constexpr double kTie = 1e-10;
+
+/// A state may be this much heavier (relative) than the lightest known one and still be judged as a candidate
+/// for the canonical state.
+inline constexpr double kHeavier = 1e-10;
+
+/// An optimal face on which the generic functional varies by up to this (internal unit, relative to max(1,
+/// |value|)) is a point.
+inline constexpr double kPointFace = 1e-9;
+
+/// An edge of the polytope up to this long (internal unit; unit: its direction for a slack of 1) is none: its
+/// ends are one degenerate vertex.
+inline constexpr double kPolytopeEdge = 1e-9;
+
+/// A slack that falls by up to this along an edge of the polytope (per unit of the slack that is left) does
+/// not limit its length.
+inline constexpr double kLengthRate = 1e-9;
+
+/// An inequality whose slack changes by up to this along an edge of the polytope keeps holding with equality.
+inline constexpr double kHeldRate = 1e-9;
+
+/// From a point to a vertex: a slack that falls by up to this (relative to the length of the direction) does
+/// not stop the way, and a guide whose projection is that short, relative to max(1, ‖guide‖), no longer
+/// guides.
+inline constexpr double kPurificationRate = 1e-11;
+
+/// Of two stops on that way one is the nearer if it is so by more than this (relative); else the steeper one
+/// is taken.
+inline constexpr double kNearerStop = 1e-12;
+
+// Pivoting.
+
+/// A slack that falls by up to this along an edge of the polytope (per unit of the slack that is left) does
+/// not stop a step.
+inline constexpr double kStepRate = 1e-11;
+
+/// In the paper's walk an inequality below this is active (its ε, internal unit). Workable: as kSliding.
+inline constexpr double kActive = 1e-9;
+
+/// The paper's walk goes to a neighbour if the objective's slope (dimensionless) and gain (relative to max(1,
+/// |value|)) exceed these.
+inline constexpr double kImprovingSlope = 1e-9;
+inline constexpr double kImprovingGain = 1e-10;
+
+/// The directions of the polytope's edges are lost where the smallest pivot of S_N is this small beside the
+/// largest.
+inline constexpr double kLostDirections = 1e-12;
+
+/// The paper's start: a simulated state that misses the equations by more than this (internal unit, relative
+/// to max(1, ‖x‖∞)) is not admissible.
+inline constexpr double kSimulatedState = 1e-6;
+
+/// … and a direction that should leave one active inequality and keep the others may miss that by this.
+inline constexpr double kLeavingDirection = 1e-9;
+
+/// Slacks may fall below 0 by this (internal unit) so that the ratio test can choose among rows (Harris,
+/// Math. Program. 5, 1 (1973)).
+inline constexpr double kHarris = 1e-10;
+
+/// A step that gains up to this (internal unit) counts as stalled.
+inline constexpr double kStalledGain = 1e-14;
+
+/// A held face of which the tableau violates an inequality by more than this (internal unit) is not searched.
+inline constexpr double kHeldSlack = 1e-9;
+
+/// A held inequality that cannot be made active by a rate above this is a combination of others.
+inline constexpr double kDependentRate = 1e-9;
+
+/// Rounding of the tableau that is let pass (relative; see Tableau::error).
+inline constexpr double kTableauError = 1e-11;
+
+/// Entries of a pivot column up to this are rounding of a zero: their rows stay as they are.
+inline constexpr double kTableauZero = 1e-14;
+
+/// The pivots of an exchange of inequalities may not be this small beside the largest.
+inline constexpr double kSingularExchange = 1e-11;
+
+// Uniform sampling.
+
+/// A sample may violate equilibrium and inequalities by this (internal unit, relative to max(1, ‖F‖∞)).
+inline constexpr double kSampleResidual = 1e-10;
+
+/// A component whose row of the body has a norm below this is determined (and its chain constant).
+inline constexpr double kConstantRow = 1e-12;
+
+/// A force with a standard deviation up to this (internal unit) is determined.
+inline constexpr double kConstantForce = 1e-9;
+
+/// The analytic centre is found once Newton's decrement is below this.
+inline constexpr double kNewtonDecrement = 1e-9;
+
+/// A relative position of 1 counts in the last bin of a histogram: this much less than 1.
+inline constexpr double kLastBin = 1e-12;
+
+// Verification.
+
+/// Recomputed and stored numbers may differ by this, relative to max(1, |number|).
+inline constexpr double kAgreement = 1e-12;
+
+/// A half-plane with up to this much slack (relative to the largest force) is tight at a state.
+inline constexpr double kTightHalfPlane = 1e-9;
+
+/// Distance of an objective's gradient (dimensionless) from the cone of the outward normals of the tight
+/// half-planes, up to which the state is optimal.
+inline constexpr double kOptimalityGap = 1e-9;
+
+/// A stored motion may be resisted by a contact with this power, and a stored ray (largest entry 1) miss
+/// balance and contact conditions by this.
+inline constexpr double kResistedMotion = 1e-9;
+inline constexpr double kStoredRay = 1e-9;
+
+/// Singular directions of the oracle's contact matrix below this, relative to the largest pivot, are the
+/// kernel.
+inline constexpr double kOracleRank = 1e-12;
+
+/// Nonnegative least squares: ends when no gradient exceeds this, relative to 1 + ‖b‖; a coefficient up to
+/// kPassiveZero leaves the passive set.
+inline constexpr double kPassiveGradient = 1e-12;
+inline constexpr double kPassiveZero = 1e-15;
+
+// Drawing.
+
+/// Points nearer than this, relative to the diagonal of the picture, are one.
+inline constexpr double kSamePoint = 1e-9;
+
+/// A tick or a number of the series 1, 2, 5, 10, … may exceed its limit by this (relative).
+inline constexpr double kLastTick = 1e-9;
+inline constexpr double kRoundNumber = 1e-12;
+
+// Simulation (libsim). Forces and energies in the world's units (libsim/world.h), of a polish in internal
+// units. All but kSweepLoosening, kNormalShift and kWholeNumber are defaults of options.
+
+/// A run is at rest once the kinetic energy per disk is below kRestEnergy and the forces balance to
+/// kRestForce (contact dynamics) or kRestSpringForce (springs; rounding of the positions alone leaves about
+/// 1e-7 where k = 1.2e6).
+inline constexpr double kRestEnergy = 1e-12;
+inline constexpr double kRestForce = 1e-4;
+inline constexpr double kRestSpringForce = 1e-6;
+
+/// Gauss–Seidel sweeps end when no force changes by more than this in one: rigid contacts; implicit damping
+/// and forces on a frozen packing, whose steps are small.
+inline constexpr double kSweepChange = 1e-6;
+inline constexpr double kFineSweepChange = 1e-7;
+
+/// … loosened, with implicit damping, to this fraction of the largest change of a force in the step before.
+inline constexpr double kSweepLoosening = 1e-3;
+
+/// Polish: a raw contact slides if μR − |T| ≤ kPolishSliding · max(R, 1), transmits force if R exceeds
+/// kPolishTransmitting, and forces are balanced to kPolishResidual.
+inline constexpr double kPolishSliding = 1e-9;
+inline constexpr double kPolishTransmitting = 1e-9;
+inline constexpr double kPolishResidual = 1e-12;
+
+/// A polished state of perturb-and-resolve is accepted if it balances, and lies in the cones, to this.
+inline constexpr double kAcceptedResidual = 1e-9;
+
+/// Added to the diagonal of the normal equations A Aᵀ (of order one), so that rows that no contact balances
+/// do not make them singular; refinement undoes it.
+inline constexpr double kNormalShift = 1e-10;
+
+/// A quotient this little below a whole number is that number.
+inline constexpr double kWholeNumber = 1e-9;
 
 }  // namespace indet::tolerance

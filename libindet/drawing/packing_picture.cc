@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
 #include "libindet/drawing/canvas.h"
 
 namespace indet {
@@ -39,7 +40,7 @@ double round_below(double value) {
   if (!(value > 0)) return 0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double factor : {5.0, 2.0}) {
-    if (factor * power <= value * (1 + 1e-12)) return factor * power;
+    if (factor * power <= value * (1 + tolerance::kRoundNumber)) return factor * power;
   }
   return power;
 }
@@ -209,7 +210,7 @@ class Sheet {
 
   /// The edges of the domain that walls make.
   void draw_wall_lines(const std::vector<Vector2>& domain) {
-    const double close = 1e-9 * (high_ - low_).norm();
+    const double close = tolerance::kSamePoint * (high_ - low_).norm();
     for (std::size_t i = 0; i < domain.size(); ++i) {
       const Vector2& from = domain[i];
       const Vector2& to = domain[(i + 1) % domain.size()];
@@ -312,7 +313,7 @@ void draw_colour_bar(Sheet& sheet, double largest, const std::string& unit) {
               0.5);
   canvas.colour_bar(corner, width, 7);
   const double step = round_below(largest / 4);
-  for (int i = 0; step > 0 && i * step <= largest * (1 + 1e-9); ++i) {
+  for (int i = 0; step > 0 && i * step <= largest * (1 + tolerance::kLastTick); ++i) {
     const double x = corner.x() + width * i * step / largest;
     canvas.line({x, corner.y() + 7}, {x, corner.y() + 9}, 0.4, kBlack, false, false);
     canvas.text({x, corner.y() + 9 + kTextSize}, fmt::format("{:g}", i * step), kTextSize, 0.5);

@@ -214,7 +214,7 @@ class Reader {
   }
 
   static bool same_force(const Contact& first, const Contact& second) {
-    const double allowed = 1e-5 * std::hypot(first.R, first.T);  // six printed digits
+    const double allowed = tolerance::kPrintedForce * std::hypot(first.R, first.T);
     return std::hypot(first.R - second.R, first.T - second.T) <= allowed;
   }
 
@@ -229,7 +229,7 @@ class Reader {
         const int row = disk_rows_[static_cast<std::size_t>(index)];
         if (field(row, 1) == 0) continue;
         const Vector2 force{field(row, 2), field(row, 3)};
-        if (std::abs(field(row, 4)) > tolerance::kSliding * force.norm()) {
+        if (std::abs(field(row, 4)) > tolerance::kOutOfPlane * force.norm()) {
           table.fail(row,
                      fmt::format("wall {} pushes atom {} along z; only packings in the plane x, y can be "
                                  "read",
@@ -256,13 +256,12 @@ class Reader {
                  int row) {
     for (int i = first_wall; i < packing_.wall_count(); ++i) {
       const Wall& wall = packing_[WallId(i)];
-      if ((wall.normal - normal).norm() > tolerance::kNormalDirection) continue;
+      if ((wall.normal - normal).norm() > tolerance::kSameWall) continue;
       const double offset = std::abs((point - wall.point).dot(wall.normal));
-      if (offset <= tolerance::kNormalDirection * packing_.max_radius()) return WallId(i);
+      if (offset <= tolerance::kSameWall * packing_.max_radius()) return WallId(i);
     }
     const int count = packing_.wall_count() - first_wall;
-    if (count > 1 ||
-        (count == 1 && (packing_.walls.back().normal + normal).norm() > tolerance::kNormalDirection)) {
+    if (count > 1 || (count == 1 && (packing_.walls.back().normal + normal).norm() > tolerance::kSameWall)) {
       atoms_.table.fail(row,
                         fmt::format("wall {} is not a plane that stands still: its contact point ({}, {}) "
                                     "is off the plane of the others",
@@ -314,7 +313,7 @@ class Reader {
     const double unit = packing_.force_unit();
     double largest = unit;
     for (const Contact& contact : packing_.contacts) largest = std::max(largest, std::abs(contact.R));
-    if (discarded_ > std::max(1e-6 * unit, 1e3 * imported_.rounding * largest)) {
+    if (discarded_ > std::max(tolerance::kDiscardedForce * unit, 1e3 * imported_.rounding * largest)) {
       warn(
           fmt::format("{}: the normal force ({}, {}) has tangential parts or the tangential force ({}, {}) "
                       "normal ones, up to {:.3g} mg, which are ignored; are the columns the right ones?",

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
 struct glp_prob;
 
 namespace indet {
@@ -31,8 +32,8 @@ class GlpkProblem {
 
   struct Settings {
     Simplex simplex = Simplex::kPrimal;
-    double feasibility = 1e-9;
-    double optimality = 1e-9;
+    double feasibility = tolerance::kLpFeasibility;
+    double optimality = tolerance::kLpOptimality;
     int iteration_limit = 0;
     double time_limit = 0;
     bool presolve = false;

@@ -5,12 +5,10 @@
 #include <limits>
 
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {
-
-/// Rates below this, relative to the length of the direction, are rounding.
-constexpr double kStill = 1e-11;
 
 struct Stop {
   int inequality = -1;
@@ -21,11 +19,11 @@ struct Stop {
 /// stability.
 Stop first_stop(const Eigen::VectorXd& x, const Eigen::VectorXd& rate, const std::vector<bool>& active) {
   Stop stop;
-  const double still = kStill * std::max(1.0, rate.lpNorm<Eigen::Infinity>());
+  const double still = tolerance::kPurificationRate * std::max(1.0, rate.lpNorm<Eigen::Infinity>());
   for (Eigen::Index i = 0; i < rate.size(); ++i) {
     if (active[static_cast<std::size_t>(i)] || rate[i] >= -still) continue;
     const double distance = std::max(0.0, x[i]) / -rate[i];
-    const bool nearer = distance < stop.distance * (1 - 1e-12);
+    const bool nearer = distance < stop.distance * (1 - tolerance::kNearerStop);
     const bool steeper = distance <= stop.distance && rate[i] < rate[std::max(0, stop.inequality)];
     if (stop.inequality < 0 || nearer || steeper) stop = {static_cast<int>(i), distance};
   }
@@ -53,7 +51,7 @@ Basis purify_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const E
   Eigen::VectorXd x = set.offset + set.slope * z;
   while (free.cols() > 0) {
     const Eigen::VectorXd projected = free.transpose() * guide;
-    const bool guided = projected.norm() > kStill * std::max(1.0, guide.norm());
+    const bool guided = projected.norm() > tolerance::kPurificationRate * std::max(1.0, guide.norm());
     Eigen::VectorXd direction =
         guided ? Eigen::VectorXd(free * projected.normalized()) : Eigen::VectorXd(free.col(0));
     Eigen::VectorXd rate = set.slope * direction;

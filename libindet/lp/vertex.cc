@@ -56,7 +56,7 @@ double polytope_edge_length(const FeasibleSet& set, const Vertex& vertex, int k)
   for (const int active : vertex.basis) direction[active] = 0;
   double length = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
-    if (direction[i] < -tolerance::kReducedCost)
+    if (direction[i] < -tolerance::kLengthRate)
       length = std::min(length, std::max(0.0, vertex.x[i]) / -direction[i]);
   }
   return length;

@@ -91,11 +91,11 @@ NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Ei
   // The residual that is left is orthogonal to the range of c only in part: project it onto the left kernel.
   const Eigen::VectorXd residual = matrix * result.particular - b;
   const double allowed =
-      tolerance::kPrimalResidual * std::max(1.0, result.particular.lpNorm<Eigen::Infinity>());
+      tolerance::kUnbalancedLoad * std::max(1.0, result.particular.lpNorm<Eigen::Infinity>());
   if (residual.lpNorm<Eigen::Infinity>() > allowed && result.rank < matrix.rows()) {
     const Eigen::MatrixXd left = SparseQr(matrix, tolerance::kRankReject * scale).left_kernel();
     const Eigen::VectorXd unbalanced = left * (left.transpose() * -b);
-    if (unbalanced.lpNorm<Eigen::Infinity>() > tolerance::kPrimalResidual) result.unbalanced = unbalanced;
+    if (unbalanced.lpNorm<Eigen::Infinity>() > tolerance::kUnbalancedLoad) result.unbalanced = unbalanced;
   }
   return result;
 }

@@ -37,7 +37,7 @@ bool leave_one(const FeasibleSet& set, const std::vector<int>& active, double ep
     const Eigen::VectorXd wanted =
         Eigen::VectorXd::Unit(static_cast<Eigen::Index>(active.size()), static_cast<Eigen::Index>(i));
     const Eigen::VectorXd direction = decomposition.solve(wanted);
-    if ((rows * direction - wanted).lpNorm<Eigen::Infinity>() > tolerance::kSliding) continue;
+    if ((rows * direction - wanted).lpNorm<Eigen::Infinity>() > tolerance::kLeavingDirection) continue;
     const Eigen::VectorXd rate = set.slope * direction;
     const double step = std::min(1.0, way_ahead(x, rate, active) / 2);
     if (step < 2 * epsilon) continue;
@@ -71,7 +71,8 @@ InteriorStart leave_sliding_contacts(const FeasibleSet& set, const Eigen::Vector
   Eigen::VectorXd z = set.slope.colPivHouseholderQr().solve(simulated - set.offset);
   Eigen::VectorXd x = set.offset + set.slope * z;
   const double scale = std::max(1.0, simulated.lpNorm<Eigen::Infinity>());
-  if ((x - simulated).lpNorm<Eigen::Infinity>() > tolerance::kBalance * scale || x.minCoeff() < -epsilon) {
+  if ((x - simulated).lpNorm<Eigen::Infinity>() > tolerance::kSimulatedState * scale ||
+      x.minCoeff() < -epsilon) {
     start.end = InteriorEnd::kOutside;
     return start;
   }

@@ -10,11 +10,6 @@ namespace indet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Slacks that change by less than this along an edge of the polytope do not end it.
-constexpr double kStill = 1e-11;
-/// The directions of the polytope's edges are lost where the smallest pivot of S_N is this small beside the
-/// largest.
-constexpr double kSingular = 1e-12;
 /// Walks at N = 95 take some tens of steps.
 constexpr std::int64_t kStepLimit = 100000;
 
@@ -36,7 +31,7 @@ Neighbours find_neighbours(const FeasibleSet& set, const Eigen::VectorXd& x,
   for (Eigen::Index j = 0; j < set.dim(); ++j) {
     for (Eigen::Index k = 0; k < rate.rows(); ++k) {
       const double approach = -rate(k, j);
-      if (approach <= kStill || is_active[static_cast<std::size_t>(k)] != 0) continue;
+      if (approach <= tolerance::kStepRate || is_active[static_cast<std::size_t>(k)] != 0) continue;
       const double slack = std::max(0.0, x[k]);
       if (slack >= result.length[j] * approach) continue;
       result.length[j] = slack / approach;
@@ -48,7 +43,7 @@ Neighbours find_neighbours(const FeasibleSet& set, const Eigen::VectorXd& x,
 
 bool is_singular(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
   const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
-  return !(pivots.minCoeff() > kSingular * pivots.maxCoeff());
+  return !(pivots.minCoeff() > tolerance::kLostDirections * pivots.maxCoeff());
 }
 
 }  // namespace
@@ -98,9 +93,9 @@ NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& sta
     const Neighbours neighbours = find_neighbours(set_, x, is_active, factors);
     const Eigen::VectorXd slope = neighbours.direction.transpose() * objective.along_z;
     int best = -1;
-    double best_gain = tolerance::kTie * std::max(1.0, std::abs(value));
+    double best_gain = tolerance::kImprovingGain * std::max(1.0, std::abs(value));
     for (int j = 0; j < set_.dim(); ++j) {
-      if (slope[j] <= tolerance::kReducedCost || slope[j] * neighbours.length[j] <= best_gain) continue;
+      if (slope[j] <= tolerance::kImprovingSlope || slope[j] * neighbours.length[j] <= best_gain) continue;
       best = j;
       best_gain = slope[j] * neighbours.length[j];
     }

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Slacks that change by less than this along an edge of the polytope (per unit of the slack that is left) do
-/// not stop it.
-constexpr double kStill = 1e-11;
 
 /// How far each improving edge reaches; +inf where nothing stops it.
 Eigen::VectorXd lengths(const Tableau& tableau, const std::vector<int>& columns) {
@@ -22,7 +20,7 @@ Eigen::VectorXd lengths(const Tableau& tableau, const std::vector<int>& columns)
     for (std::size_t j = 0; j < columns.size(); ++j) {
       const double rate = -row[columns[j]];
       double& limit = length[static_cast<Eigen::Index>(j)];
-      if (rate > kStill && slack < limit * rate) limit = slack / rate;
+      if (rate > tolerance::kStepRate && slack < limit * rate) limit = slack / rate;
     }
   }
   return length;
@@ -92,11 +90,12 @@ int first_stop(const Tableau& tableau, int column, double tolerance) {
   const Eigen::VectorXd rate = -tableau.rates().col(column);
   double reach = kInfinity;
   for (Eigen::Index i = 0; i < rate.size(); ++i) {
-    if (rate[i] > kStill) reach = std::min(reach, (std::max(0.0, tableau.slacks()[i]) + tolerance) / rate[i]);
+    if (rate[i] > tolerance::kStepRate)
+      reach = std::min(reach, (std::max(0.0, tableau.slacks()[i]) + tolerance) / rate[i]);
   }
   int stop = -1;
   for (Eigen::Index i = 0; i < rate.size(); ++i) {
-    if (rate[i] <= kStill || tableau.slacks()[i] > reach * rate[i]) continue;
+    if (rate[i] <= tolerance::kStepRate || tableau.slacks()[i] > reach * rate[i]) continue;
     if (stop < 0 || rate[i] > rate[stop]) stop = static_cast<int>(i);
   }
   return stop;
@@ -107,7 +106,7 @@ int first_stop_by_number(const Tableau& tableau, int column) {
   double reach = kInfinity;
   for (Eigen::Index i = 0; i < tableau.rates().rows(); ++i) {
     const double rate = -tableau.rates()(i, column);
-    if (rate <= kStill) continue;
+    if (rate <= tolerance::kStepRate) continue;
     const double distance = std::max(0.0, tableau.slacks()[i]) / rate;
     const bool equal = distance == reach;
     const bool smaller = stop >= 0 && tableau.slack()[static_cast<std::size_t>(i)] <

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libindet/base/random.h"
+#include "libindet/base/tolerances.h"
 
 // The inner loops are compiled for wider registers too. Each element is computed by itself and without fused
 // multiply-add, so the width does not change a result.
@@ -18,14 +19,9 @@
 namespace indet {
 namespace {
 
-/// Entries of the pivot column below this (dimensionless) are rounding of a zero: their rows stay as they
-/// are.
-constexpr double kZero = 1e-14;
 /// Updates of the weights before they are computed anew, which costs as much as a pivot. Errors made where an
 /// edge is long stay when it is short again.
 constexpr int kWeightUpdates = 32;
-/// The pivots of an exchange may not be smaller than this beside the largest.
-constexpr double kSingular = 1e-11;
 
 /// y += f · x.
 INDET_WIDE void add_multiple(double* y, const double* x, double f, Eigen::Index n) {
@@ -60,7 +56,7 @@ bool Tableau::build(const Basis& basis) {
   const Eigen::MatrixXd rows = set_.slope(active_, Eigen::all);
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(rows.transpose());
   const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > kSingular * pivots.maxCoeff())) {
+  if (!(pivots.minCoeff() > tolerance::kSingularExchange * pivots.maxCoeff())) {
     active_.clear();
     return false;
   }
@@ -93,7 +89,8 @@ bool Tableau::move_to(const Basis& basis) {
   }
   const Eigen::PartialPivLU<Eigen::MatrixXd> corner(Eigen::MatrixXd(rates_(rows, columns)));
   const auto pivots = corner.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > kSingular * std::max(1.0, pivots.maxCoeff()))) return build(basis);
+  if (!(pivots.minCoeff() > tolerance::kSingularExchange * std::max(1.0, pivots.maxCoeff())))
+    return build(basis);
   exchange(rows, columns);
   return true;
 }
@@ -132,7 +129,7 @@ void Tableau::pivot(int r, int q) {
   if (with_weights_) product_.setZero(d);
   for (Eigen::Index i = 0; i < rates_.rows(); ++i) {
     const double factor = column_[i];
-    if (i == r || std::abs(factor) <= kZero) continue;
+    if (i == r || std::abs(factor) <= tolerance::kTableauZero) continue;
     double* const row = rates_.row(i).data();
     row[q] = 0;  // the new entry is factor · inverse alone
     if (with_weights_) {

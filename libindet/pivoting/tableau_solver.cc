@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet {
 namespace {
 
@@ -11,10 +13,6 @@ namespace {
 constexpr int kStalled = 40;
 /// Exchanges after which the tableau is factorised anew, whatever its error.
 constexpr std::int64_t kRenewal = 2000;
-/// Rounding of the tableau that is let pass (relative; see Tableau::error).
-constexpr double kError = 1e-11;
-/// A held inequality that cannot be made active by a rate above this is a combination of others.
-constexpr double kDependent = 1e-9;
 
 }  // namespace
 
@@ -25,7 +23,8 @@ LpAnswer TableauSolver::maximise(const Objective& objective, const Basis& start,
   LpAnswer answer;
   answer.attempts = 1;
   if (since_built_ > kRenewal) since_built_ = tableau_.build(start) ? 0 : since_built_;
-  if (!tableau_.move_to(start) || (tableau_.error() > kError && !tableau_.build(start))) return answer;
+  if (!tableau_.move_to(start) || (tableau_.error() > tolerance::kTableauError && !tableau_.build(start)))
+    return answer;
   if (!hold(held, answer.pivots)) return answer;
   answer.status = climb(objective, answer.pivots);
   since_built_ += answer.pivots;
@@ -46,14 +45,15 @@ bool TableauSolver::hold(std::span<const int> held, std::int64_t& pivots) {
     for (int j = 0; j < static_cast<int>(is_held_.size()); ++j) {
       if (is_held_[static_cast<std::size_t>(j)] != 0) continue;
       const double rate = std::abs(tableau_.rates()(row, j));
-      if (rate > (column < 0 ? kDependent : std::abs(tableau_.rates()(row, column)))) column = j;
+      if (rate > (column < 0 ? tolerance::kDependentRate : std::abs(tableau_.rates()(row, column))))
+        column = j;
     }
     if (column < 0) continue;  // the other held ones hold it
     tableau_.pivot(row, column);
     is_held_[static_cast<std::size_t>(column)] = 1;
     ++pivots;
   }
-  return tableau_.slacks().size() == 0 || tableau_.slacks().minCoeff() > -tolerance::kSliding;
+  return tableau_.slacks().size() == 0 || tableau_.slacks().minCoeff() > -tolerance::kHeldSlack;
 }
 
 LpStatus TableauSolver::climb(const Objective& objective, std::int64_t& pivots) {
@@ -66,23 +66,23 @@ LpStatus TableauSolver::climb(const Objective& objective, std::int64_t& pivots) 
     const int column = careful ? choose_column_by_number(tableau_, gradient, is_held_, options_.optimality)
                                : choose_column(tableau_, gradient, is_held_, rule_, options_.optimality);
     if (column < 0) {
-      const bool is_sound = tableau_.error() <= kError;
+      const bool is_sound = tableau_.error() <= tolerance::kTableauError;
       if (is_fresh && is_sound) return LpStatus::kOptimal;
       if (!is_sound && !repair()) return LpStatus::kFailed;
       gradient = tableau_.gradient(objective);
       is_fresh = true;
       continue;
     }
-    const int row = careful ? first_stop_by_number(tableau_, column)
-                            : first_stop(tableau_, column, tolerance::kLpFeasibility);
+    const int row =
+        careful ? first_stop_by_number(tableau_, column) : first_stop(tableau_, column, tolerance::kHarris);
     if (row < 0) {
-      if (tableau_.error() <= kError) return LpStatus::kUnbounded;
+      if (tableau_.error() <= tolerance::kTableauError) return LpStatus::kUnbounded;
       if (!repair()) return LpStatus::kFailed;
       gradient = tableau_.gradient(objective);
       continue;
     }
     const double length = tableau_.slacks()[row] / -tableau_.rates()(row, column);
-    stalled = length * gradient[column] > tolerance::kNoise ? 0 : stalled + 1;
+    stalled = length * gradient[column] > tolerance::kStalledGain ? 0 : stalled + 1;
     const double slope = gradient[column];
     tableau_.pivot(row, column);
     gradient[column] = 0;
@@ -107,7 +107,7 @@ bool TableauSolver::repair() {
   is_held_.assign(is_held_.size(), 0);
   for (const int k : held) is_held_[static_cast<std::size_t>(tableau_.column_of(k))] = 1;
   since_built_ = 0;
-  return tableau_.error() <= kError;
+  return tableau_.error() <= tolerance::kTableauError;
 }
 
 }  // namespace indet

@@ -58,7 +58,7 @@ std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, 
   const int d = whole.dim();
   const int count = whole.inequalities();
   const Eigen::MatrixXd D = whole.slope * vertex.active.inverse();
-  const double zero = tolerance::kReducedCost;
+  const double zero = tolerance::kCoupling;
 
   // Elements 0 … d − 1: coordinates; then one element an edge.
   DisjointSets sets(d + count);

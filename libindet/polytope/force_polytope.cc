@@ -25,7 +25,7 @@ void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, 
     // Entries at the level of rounding say nothing about which disk moves.
     const double velocity = rows[i] / largest;
     polytope.motion(row.disk.value(), row.component) =
-        std::abs(velocity) > tolerance::kReducedCost ? velocity : 0;
+        std::abs(velocity) > tolerance::kMotionEntry ? velocity : 0;
   }
 }
 
@@ -84,7 +84,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
       set_motion(problem, motion, polytope);
       polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, {}) ||
                           !exact::proves_emptiness(exact, on_exact_rows(exact, problem, motion), closings,
-                                                   tolerance::kReducedCost);
+                                                   tolerance::kExactZero);
     };
     if (null_space.unbalanced.size() > 0) {
       prove_emptiness(null_space.unbalanced);
@@ -114,7 +114,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     }
     std::vector<ContactMode> modes = problem.modes;
     exact::Closing closing{{}, on_exact_rows(exact, problem, motion)};
-    const double significant = interior.multipliers.maxCoeff() * tolerance::kReducedCost;
+    const double significant = interior.multipliers.maxCoeff() * tolerance::kClosingMultiplier;
     for (int k = 0; k < set.inequalities(); ++k) {
       if (interior.multipliers[k] <= significant) continue;
       const Edge& edge = problem.edges[static_cast<std::size_t>(k)];

@@ -39,7 +39,7 @@ bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, con
   if (rays.rows() == 0) return true;
   for (Eigen::Index q = 0; q < rays.rows(); ++q) {
     const std::span<const double> ray(&rays(q, 0), static_cast<std::size_t>(rays.cols()));
-    if (!exact::proves_ray(exact, exact::edge_strengths(packing, ray), tolerance::kReducedCost)) return false;
+    if (!exact::proves_ray(exact, exact::edge_strengths(packing, ray), tolerance::kExactZero)) return false;
   }
   return true;
 }
@@ -54,6 +54,7 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   search.lp = options.lp;
   search.threads = options.threads;
   search.canonical_states = options.canonical_states;
+  search.solver_states = options.solver_states;
   if (options.progress) {
     search.progress = [&options](std::int64_t settled, std::int64_t total) {
       return options.progress({"force ranges", settled, total, {}});

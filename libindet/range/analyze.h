@@ -25,8 +25,9 @@ struct AnalyzeOptions {
   LpOptions lp;
   ContactChoice contacts;
   bool canonical_states =
-      true;         ///< extremal states of smallest total normal force; false: where the solver lands
-  int threads = 1;  ///< the results do not depend on it
+      true;  ///< extremal states of smallest total normal force; false: where the solver lands
+  bool solver_states = false;  ///< also tell where the solver landed (ForceRanges::solver_states)
+  int threads = 1;             ///< the results do not depend on it
   ProgressCallback progress;
 };
 

@@ -80,7 +80,7 @@ bool CanonicalStates::is_point(Maximiser& solver, const Basis& basis, const std:
     if (answer.status != LpStatus::kOptimal) return false;
     values.push_back(checker_.generic().along_z.dot(compute_vertex(set_, answer.basis).z));
   }
-  return std::abs(values[0] - values[1]) <= tolerance::kSliding * std::max(1.0, std::abs(values[0]));
+  return std::abs(values[0] - values[1]) <= tolerance::kPointFace * std::max(1.0, std::abs(values[0]));
 }
 
 }  // namespace indet

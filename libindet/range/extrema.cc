@@ -45,7 +45,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
       Component& component = is_tangential ? pair.second : pair.first;
       // A component may be determined although the other one of its contact is not.
       const Objective objective = make_objective(block.set, component.on_edges);
-      if (objective.along_z.norm() <= tolerance::kReducedCost) continue;
+      if (objective.along_z.norm() <= tolerance::kConstantComponent) continue;
       result.components.push_back(std::move(component));
       result.names.emplace_back(ContactId(contact), is_tangential);
     }
@@ -62,11 +62,17 @@ class ExtremaFinder {
         polytope_(polytope),
         contacts_(contacts),
         options_(options),
-        states_(polytope) {
+        states_(polytope),
+        solver_states_(polytope) {
     const auto count = static_cast<Eigen::Index>(polytope.problem.contacts.size());
     extrema_.claim.setConstant(count, 4, Outcome::kNotRequested);
     extrema_.vertex.setConstant(count, 4, -1);
     extrema_.unique.setZero(count, 4);
+    if (options.solver_states) {
+      extrema_.solver_states.emplace();
+      extrema_.solver_states->states.resize(0, 2 * count);
+      extrema_.solver_states->vertex.setConstant(count, 4, -1);
+    }
     extrema_.ray.setConstant(count, 4, -1);
     for (auto* table : {&extrema_.dual_residual, &extrema_.ray_residual})
       table->setConstant(count, 4, std::numeric_limits<double>::quiet_NaN());
@@ -92,6 +98,7 @@ class ExtremaFinder {
     extrema_.states = states_.states();
     extrema_.active = states_.active();
     extrema_.rays = states_.rays();
+    if (extrema_.solver_states) extrema_.solver_states->states = solver_states_.states();
     return std::move(extrema_);
   }
 
@@ -113,7 +120,7 @@ class ExtremaFinder {
     const FeasibleSet cone = truncated_recession_cone(set);
     SearchOptions options = options_;
     options.formulation = Formulation::kDual;
-    options.canonical_states = false;
+    options.canonical_states = options.solver_states = false;
     if (options.method == Method::kPivotingPaper) options.method = Method::kLp;  // the paper met no such case
     if (options_.progress) {  // these searches may be stopped too, but settle no range yet
       options.progress = [this](std::int64_t, std::int64_t) { return options_.progress(settled_, total_); };
@@ -134,7 +141,7 @@ class ExtremaFinder {
         wanted = false;
         ++settled_;
         const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
-        const bool is_ray = end.infeasibility() <= tolerance::kPrimalResidual;
+        const bool is_ray = end.infeasibility() <= tolerance::kRayResidual;
         extrema_.claim(row, column) = is_ray ? Outcome::kUnbounded : Outcome::kImprecise;
         extrema_.ray(row, column) = states_.add_ray(number, end.x.head(set.inequalities()));
         extrema_.ray_residual(row, column) = end.infeasibility();
@@ -170,6 +177,10 @@ class ExtremaFinder {
         if (!optimal) return;
         const Vertex& vertex = found.vertices[static_cast<std::size_t>(extremum.vertex)];
         extrema_.vertex(row, column) = states_.add(number, vertex);
+        if (extrema_.solver_states) {
+          const Vertex& landed = found.vertices[static_cast<std::size_t>(extremum.solver_vertex)];
+          extrema_.solver_states->vertex(row, column) = solver_states_.add(number, landed);
+        }
         extrema_.proofs.push_back({row, column, number, extremum.proof});
         extrema_.dual_residual(row, column) = extremum.dual_residual;
         extrema_.unique(row, column) = extremum.unique && polytope_.blocks.size() == 1 ? 1 : 0;
@@ -187,6 +198,7 @@ class ExtremaFinder {
         if (extrema_.claim(i, column) != Outcome::kNotRequested) continue;
         extrema_.claim(i, column) = Outcome::kOptimal;
         extrema_.vertex(i, column) = states_.lightest();
+        if (extrema_.solver_states) extrema_.solver_states->vertex(i, column) = solver_states_.lightest();
         extrema_.dual_residual(i, column) = 0;
         extrema_.unique(i, column) = polytope_.dim == 0 ? 1 : 0;
         ++extrema_.determined;
@@ -199,6 +211,7 @@ class ExtremaFinder {
   const std::vector<int>& contacts_;
   const SearchOptions& options_;
   StateTable states_;
+  StateTable solver_states_;
   std::int64_t settled_ = 0;  ///< objectives that are determined, unbounded, or of a block that is done
   std::int64_t total_ = 0;
   Extrema extrema_;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,13 @@ struct ExtremalStates {
   Rows<double> rays;  ///< [Q, 2M]: directions of ker c ∩ K along which F is unbounded (largest entry 1).
   Table4<std::int32_t>
       ray;  ///< Row of `rays` along which the objective grows without limit; −1: it is limited.
+};
+
+/// The states on which the solver landed before canonical ones were looked for (Extremum::solver_vertex): the
+/// `states` and `vertex` of a search without canonical states.
+struct SolverStates {
+  Rows<double> states;          ///< [K, 2M]
+  Table4<std::int32_t> vertex;  ///< Row of `states`; −1: none.
 };
 
 /// What the search did.
@@ -57,6 +65,7 @@ struct Extrema : ExtremalStates, SearchWork {
   Table4<double> ray_residual;       ///< Violation of the recession cone by the ray; NaN without one.
   std::vector<OptimalBasis> proofs;  ///< Objectives with a vertex and none here are determined.
   double state_seconds = 0;          ///< Of the time, what the canonical states took.
+  std::optional<SolverStates> solver_states;  ///< Where asked for.
 };
 
 /// Extrema of R and T of the `contacts` (ascending) over F, block by block. `options.formulation` holds for

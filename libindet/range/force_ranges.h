@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "libindet/packing/packing.h"
@@ -26,6 +27,8 @@ struct ForceRanges : ProblemSummary, ContactRequest, ExtremalStates, SearchWork,
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   std::map<std::string, double> seconds;  ///< By stage.
+  /// Where asked for (AnalyzeOptions::solver_states); no field of files.
+  std::optional<SolverStates> solver_states;
 };
 
 /// Certifies and measures what was found, and puts all of it together.

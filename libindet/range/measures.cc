@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "libindet/base/tolerances.h"
@@ -15,7 +16,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Where the simulated force lies between minimum (0) and maximum (1) [39].
 double relative_position(double simulated, double minimum, double maximum, double force_unit) {
   const double width = maximum - minimum;
-  if (!std::isfinite(width) || !(width > tolerance::kSliding * force_unit)) return kNaN;
+  if (!std::isfinite(width) || !(width > tolerance::kPointRange * force_unit)) return kNaN;
   return (simulated - minimum) / width;
 }
 
@@ -33,33 +34,41 @@ SampleEstimate estimate_from_requested(const Table4<Outcome>& outcome, const Eig
 
 }  // namespace
 
+StateDistances state_distances(const Rows<double>& states, const Table4<std::int32_t>& vertex,
+                               double force_unit) {
+  const auto distance = [&](int first, int second) {
+    if (first < 0 || second < 0) return kNaN;
+    return (states.row(first) - states.row(second)).norm() / force_unit;
+  };
+  StateDistances distances{Eigen::VectorXd(vertex.rows()), Eigen::VectorXd(vertex.rows())};
+  for (Eigen::Index i = 0; i < vertex.rows(); ++i) {
+    distances.d_R[i] = distance(vertex(i, kMaxR), vertex(i, kMinR));
+    distances.d_T[i] = distance(vertex(i, kMaxT), vertex(i, kMinT));
+  }
+  return distances;
+}
+
 Measures measure(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,
                  const ExtremalStates& extremal, const Certified& certified) {
   const Eigen::Index count = packing.contact_count();
   const double unit = problem.force_unit;
   Measures measures;
-  for (auto* vector : {&measures.delta_R, &measures.delta_T, &measures.d_R, &measures.d_T, &measures.R_star,
-                       &measures.T_star}) {
+  for (auto* vector : {&measures.delta_R, &measures.delta_T, &measures.R_star, &measures.T_star})
     vector->setConstant(count, kNaN);
-  }
   measures.norm = extremal.states.rowwise().norm();
   if (measures.norm.size() > 0) {
     Eigen::Index largest = 0;
     measures.norm.maxCoeff(&largest);
     measures.largest_norm = static_cast<int>(largest);
   }
-  const auto distance = [&](int first, int second) {
-    if (first < 0 || second < 0) return kNaN;
-    return (extremal.states.row(first) - extremal.states.row(second)).norm() / unit;
-  };
+  StateDistances distances = state_distances(extremal.states, extremal.vertex, unit);
+  measures.d_R = std::move(distances.d_R);
+  measures.d_T = std::move(distances.d_T);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto value = certified.value.row(i);
-    const auto vertex = extremal.vertex.row(i);
     const Contact& contact = packing[ContactId(i)];
     measures.delta_R[i] = (value[kMaxR] - value[kMinR]) / unit;
     measures.delta_T[i] = (value[kMaxT] - value[kMinT]) / unit;
-    measures.d_R[i] = distance(vertex[kMaxR], vertex[kMinR]);
-    measures.d_T[i] = distance(vertex[kMaxT], vertex[kMinT]);
     measures.R_star[i] = relative_position(contact.R, value[kMinR], value[kMaxR], unit);
     measures.T_star[i] = relative_position(contact.T, value[kMinT], value[kMaxT], unit);
   }

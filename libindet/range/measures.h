@@ -27,6 +27,15 @@ struct Measures {
   SampleEstimate sample_R, sample_T;  ///< δR and δT of all contacts, estimated from a sample.
 };
 
+/// Distances of extremal states [24], dimensionless; NaN where one is missing.
+struct StateDistances {
+  Eigen::VectorXd d_R, d_T;  ///< One entry a contact.
+};
+
+/// `vertex`: rows of `states`, which are in the scene's units.
+StateDistances state_distances(const Rows<double>& states, const Table4<std::int32_t>& vertex,
+                               double force_unit);
+
 /// An estimate from a sample is NaN if one of its ranges was not found, or there is none.
 Measures measure(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,
                  const ExtremalStates& extremal, const Certified& certified);

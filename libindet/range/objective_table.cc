@@ -36,7 +36,7 @@ bool ObjectiveTable::is_candidate(const ObjectiveProgress& known, double better,
   if (!known.wanted || known.unbounded || known.failed || known.canonical) return false;
   if (!known.optimal && better > known.best) return true;
   if (!ties(better, known.best)) return false;
-  return !known.optimal || (canonical_states_ && weight <= known.weight * (1 + tolerance::kTie));
+  return !known.optimal || (canonical_states_ && weight <= known.weight * (1 + tolerance::kHeavier));
 }
 
 std::vector<int> ObjectiveTable::merge(std::vector<TaskResult> results) {

@@ -131,12 +131,12 @@ bool OptimalityChecker::keeps_to(const CheckedVertex& checked, int k, const std:
   std::set_difference(held.begin(), held.end(), basis.begin(), basis.end(), std::back_inserter(others));
   if (others.empty()) return true;
   const Eigen::VectorXd rates = set_.slope(others, Eigen::all) * checked.vertex.edge_direction(k);
-  return rates.lpNorm<Eigen::Infinity>() <= tolerance::kReducedCost;
+  return rates.lpNorm<Eigen::Infinity>() <= tolerance::kHeldRate;
 }
 
 bool OptimalityChecker::polytope_edge_has_length(CheckedVertex& checked, int k) const {
   auto& known = checked.has_length[static_cast<std::size_t>(k)];
-  if (!known) known = polytope_edge_length(set_, checked.vertex, k) > tolerance::kSliding;
+  if (!known) known = polytope_edge_length(set_, checked.vertex, k) > tolerance::kPolytopeEdge;
   return *known;
 }
 

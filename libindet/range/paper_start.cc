@@ -11,7 +11,7 @@ Basis first_extremal_point(const SceneForces& simulated, const ForcePolytope& po
                            const PolytopeBlock& block, const LpOptions& options, PaperWork& work) {
   const EquilibriumProblem& problem = polytope.problem;
   const Eigen::VectorXd strengths = problem.strengths_of(problem.units.internal(simulated))(block.edges);
-  const InteriorStart start = leave_sliding_contacts(block.set, strengths, tolerance::kSliding);
+  const InteriorStart start = leave_sliding_contacts(block.set, strengths, tolerance::kActive);
   ++work.starts[static_cast<std::size_t>(start.end)];
   work.sliding_left += start.left;
   const Eigen::VectorXd interior =

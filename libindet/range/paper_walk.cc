@@ -40,7 +40,7 @@ TaskResult walk_to_value(const NeighbourSearch& search, const OptimalityChecker&
 
 void walk_to_values(const FeasibleSet& set, const OptimalityChecker& checker, const Basis& start,
                     ObjectiveTable& table, SearchRounds& rounds) {
-  const NeighbourSearch search(set, tolerance::kSliding);
+  const NeighbourSearch search(set, tolerance::kActive);
   const auto close = [](ObjectiveProgress& known) { known.failed = !known.optimal; };
   for (const bool is_maximum : {false, true}) {
     std::vector<std::int64_t> objectives;

@@ -72,7 +72,7 @@ class Comparison {
 
   /// False where R is determined.
   bool varies(Eigen::Index contact) const {
-    return sample_.deviation.value()[2 * contact] > tolerance::kSliding;
+    return sample_.deviation.value()[2 * contact] > tolerance::kConstantForce;
   }
 
   void compare(Eigen::Index contact, const Quantity& uniform, const Quantity& chain,
@@ -104,8 +104,8 @@ class Comparison {
     for (const double R : values) {
       forces.force.add(std::max(R, 0.0));  // rounding around 0
       if (varies(contact)) forces.standard.add((R - mean) / deviation);
-      if (range > tolerance::kSliding * body_.units.internal_in_weights() && std::isfinite(range))
-        forces.place.add(std::clamp((R - low) / range, 0.0, 1 - 1e-12));
+      if (range > tolerance::kPointRange * body_.units.internal_in_weights() && std::isfinite(range))
+        forces.place.add(std::clamp((R - low) / range, 0.0, 1 - tolerance::kLastBin));
     }
   }
 

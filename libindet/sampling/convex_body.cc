@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/polytope/interior.h"
 
 namespace indet {
@@ -95,7 +96,6 @@ InscribedBall find_inscribed_ball(const ConvexBody& body) {
 
 AnalyticCenter find_analytic_center(const ConvexBody& body, const Eigen::VectorXd& interior) {
   constexpr int kMostSteps = 200;
-  constexpr double kDecrement = 1e-9;
   AnalyticCenter center{interior, Eigen::MatrixXd::Zero(body.dim(), body.dim())};
   for (const BodyBlock& block : body.blocks) {
     const Eigen::MatrixXd slope =
@@ -113,7 +113,7 @@ AnalyticCenter find_analytic_center(const ConvexBody& body, const Eigen::VectorX
       const double decrement = (scaled * reversed).norm();
       // The damped step 1/(1 + λ) stays inside the Dikin ellipsoid, and so inside the body.
       z += reversed.reverse() * (decrement < 0.25 ? 1.0 : 1 / (1 + decrement));
-      if (!(decrement > kDecrement)) break;
+      if (!(decrement > tolerance::kNewtonDecrement)) break;
     }
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
     const Eigen::MatrixXd upper = qr.matrixQR().topRows(block.columns).triangularView<Eigen::Upper>();

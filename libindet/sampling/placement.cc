@@ -23,7 +23,7 @@ double mean_mobilisation(const Packing& packing, const Eigen::VectorXd& state) {
   int count = 0;
   for (int k = 0; k < packing.contact_count(); ++k) {
     const double limit = packing[ContactId(k)].mu * state[2 * k];
-    if (!(limit > tolerance::kSliding)) continue;
+    if (!(limit > tolerance::kCoulombLimit)) continue;
     sum += std::abs(state[2 * k + 1]) / limit;
     ++count;
   }
@@ -35,7 +35,7 @@ double mean_R_star(const ForceRanges& ranges, const ForceUnits& units, const Eig
   double sum = 0;
   int count = 0;
   for (Eigen::Index k = 0; k < ranges.delta_R.size(); ++k) {
-    if (!(ranges.delta_R[k] > tolerance::kSliding * unit) || std::isinf(ranges.delta_R[k])) continue;
+    if (!(ranges.delta_R[k] > tolerance::kPointRange * unit) || std::isinf(ranges.delta_R[k])) continue;
     sum += (unit * state[2 * k] - ranges.value(k, kMinR) / ranges.force_unit) / ranges.delta_R[k];
     ++count;
   }
@@ -94,7 +94,7 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
   int inside = 0;
   int counted = 0;
   for (int k = 0; k < body.frame.rows(); k += 2) {
-    if (!(sample.deviation.value()[k] > tolerance::kSliding)) continue;
+    if (!(sample.deviation.value()[k] > tolerance::kConstantForce)) continue;
     Eigen::VectorXd values = component_of(body, sample, k).value();
     std::sort(values.begin(), values.end());
     const std::span<const double> sorted(values.data(), static_cast<std::size_t>(values.size()));

@@ -18,9 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A component that moves less than this with z is determined.
-constexpr double kConstantRow = 1e-12;
-
 /// One chain: what it recorded, at sweeps interval, 2 interval, …
 struct Chain {
   CoordinateWalk walk;
@@ -120,7 +117,7 @@ class Sampler {
     result_.worst_slack = std::numeric_limits<double>::infinity();
     for (const Chain& chain : chains_) result_.worst_slack = std::min(result_.worst_slack, chain.worst_slack);
     const double scale = std::max(1.0, body_.set.offset.lpNorm<Eigen::Infinity>());
-    if (!(result_.worst_slack >= -tolerance::kPrimalResidual * scale)) {
+    if (!(result_.worst_slack >= -tolerance::kSampleResidual * scale)) {
       throw LibraryError(fmt::format("a sample is outside of the polytope by {:.1e}", -result_.worst_slack));
     }
   }
@@ -145,7 +142,7 @@ class Sampler {
   }
 
   Convergence assess(const ChainAssessor& assessor, int k) const {
-    if (k < body_.frame.rows() && body_.frame.row(k).norm() < kConstantRow) return {};
+    if (k < body_.frame.rows() && body_.frame.row(k).norm() < tolerance::kConstantRow) return {};
     const Eigen::VectorXd values = component_of(body_, result_, k).value();
     return assessor.assess({values.data(), static_cast<std::size_t>(values.size())});
   }

@@ -61,7 +61,7 @@ struct UniformSample {
 };
 
 /// Preconditions: the body is bounded and has an interior. Throws InputError with the options' defect,
-/// Interrupted, and LibraryError if a sample violates an inequality by more than tolerance::kPrimalResidual.
+/// Interrupted, and LibraryError if a sample violates an inequality by more than tolerance::kSampleResidual.
 UniformSample sample_uniformly(const ConvexBody& body, const UniformOptions& options);
 
 /// Component k of F over the samples, chain after chain; k = 2M: ‖F‖.

@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet {
 namespace {
 
@@ -20,7 +22,7 @@ Eigen::VectorXd solve_passive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 }  // namespace
 
 Eigen::VectorXd solve_nonnegative(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  const double tolerance = 1e-12 * (1 + b.norm());
+  const double tolerance = tolerance::kPassiveGradient * (1 + b.norm());
   Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
   std::vector<int> passive;
   for (Eigen::Index step = 0; step < 3 * A.cols(); ++step) {
@@ -37,8 +39,8 @@ Eigen::VectorXd solve_nonnegative(const Eigen::MatrixXd& A, const Eigen::VectorX
       }
       y += length * (trial - y);
       if (length >= 1) break;
-      std::erase_if(passive, [&](int k) { return y[k] <= 1e-15; });
-      for (Eigen::Index k = 0; k < y.size(); ++k) y[k] = y[k] <= 1e-15 ? 0 : y[k];
+      std::erase_if(passive, [&](int k) { return y[k] <= tolerance::kPassiveZero; });
+      for (Eigen::Index k = 0; k < y.size(); ++k) y[k] = y[k] <= tolerance::kPassiveZero ? 0 : y[k];
       if (passive.empty()) break;
     }
   }

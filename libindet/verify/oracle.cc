@@ -6,19 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "libindet/base/tolerances.h"
 #include "libindet/verify/nonnegative.h"
 
 namespace indet {
 namespace {
 
-/// Singular directions below this, relative to the largest pivot, are the kernel.
-constexpr double kRankThreshold = 1e-12;
-
 Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints) {
   if (constraints.cols() == 0) return Eigen::MatrixXd(0, 0);
   if (constraints.rows() == 0) return Eigen::MatrixXd::Identity(constraints.cols(), constraints.cols());
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(kRankThreshold);
+  qr.setThreshold(tolerance::kOracleRank);
   qr.compute(constraints.transpose());
   const Eigen::Index nullity = constraints.cols() - qr.rank();
   Eigen::MatrixXd last = Eigen::MatrixXd::Zero(constraints.cols(), nullity);
@@ -104,7 +102,7 @@ double Oracle::optimality_gap(int component, double sign, const std::vector<int>
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(normals);
     const Eigen::VectorXd y = lu.solve(-gradient).cwiseMax(0);
     const double gap = (normals * y + gradient).norm();
-    if (gap < 1e-9) return gap;
+    if (gap < tolerance::kOptimalityGap) return gap;
   }
   return (normals * solve_nonnegative(normals, -gradient) + gradient).norm();
 }

@@ -13,11 +13,6 @@
 namespace indet {
 namespace {
 
-/// Recomputed and stored numbers may differ by rounding only.
-constexpr double kAgreement = 1e-12;
-/// A half-plane with less slack than this (mg, relative to the largest force) counts as tight at a state.
-constexpr double kTight = 1e-9;
-
 class Verifier {
  public:
   Verifier(const Packing& packing, const ForceRanges& ranges, const ProgressCallback& progress)
@@ -50,8 +45,9 @@ class Verifier {
   }
 
   void equal(double stored, double expected, const std::string& place) {
-    const bool same = stored == expected || (std::isnan(stored) && std::isnan(expected)) ||
-                      std::abs(stored - expected) <= kAgreement * std::max(1.0, std::abs(expected));
+    const bool same =
+        stored == expected || (std::isnan(stored) && std::isnan(expected)) ||
+        std::abs(stored - expected) <= tolerance::kAgreement * std::max(1.0, std::abs(expected));
     require(same, "{}: {} is stored, {} is right", place, stored, expected);
   }
 
@@ -85,7 +81,7 @@ class Verifier {
     const double power = oracle_.load_power(ranges_.motion);
     const double resisted = oracle_.smallest_contact_power(ranges_.motion);
     require(power > 0, "motion: the load does no work ({})", power);
-    require(resisted >= -kTight, "motion: some contact resists it ({})", resisted);
+    require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})", resisted);
   }
 
   Eigen::VectorXd state(Eigen::Index k) const {
@@ -107,7 +103,7 @@ class Verifier {
       equal(ranges_.norm[k], ranges_.states.row(k).norm(), fmt::format("norm of state {}", k));
       std::vector<int> tight;
       for (int h = 0; h < 2 * packing_.contact_count(); ++h) {
-        if (oracle_.slack(h, forces) <= kTight * scale) tight.push_back(h);
+        if (oracle_.slack(h, forces) <= tolerance::kTightHalfPlane * scale) tight.push_back(h);
       }
       for (const int h : ranges_.active.row(k)) {
         require(std::binary_search(tight.begin(), tight.end(), h),
@@ -116,7 +112,7 @@ class Verifier {
       tight_.push_back(std::move(tight));
     }
     report_.worst_imbalance = imbalance;
-    require(std::abs(ranges_.residual - imbalance) <= kAgreement * std::max(1.0, imbalance),
+    require(std::abs(ranges_.residual - imbalance) <= tolerance::kAgreement * std::max(1.0, imbalance),
             "residual: {} is stored, {} is right", ranges_.residual, imbalance);
     if (ranges_.norm.size() > 0) {
       Eigen::Index largest = 0;
@@ -129,10 +125,10 @@ class Verifier {
   void check_rays() {
     for (Eigen::Index q = 0; q < ranges_.rays.rows(); ++q) {
       const Eigen::VectorXd ray = ranges_.rays.row(q).transpose();
-      require(oracle_.imbalance_without_load(ray) <= kTight, "ray {}: it is not in the null space ({})", q,
-              oracle_.imbalance_without_load(ray));
-      require(oracle_.violation(ray) <= kTight, "ray {}: it violates the contact conditions ({})", q,
-              oracle_.violation(ray));
+      require(oracle_.imbalance_without_load(ray) <= tolerance::kStoredRay,
+              "ray {}: it is not in the null space ({})", q, oracle_.imbalance_without_load(ray));
+      require(oracle_.violation(ray) <= tolerance::kStoredRay,
+              "ray {}: it violates the contact conditions ({})", q, oracle_.violation(ray));
     }
   }
 
@@ -171,8 +167,8 @@ class Verifier {
             value, ranges_.states(vertex, component));
     const auto k = static_cast<std::size_t>(vertex);
     const double primal = ranges_.primal_residual(contact, column);
-    require(std::abs(primal - residuals_[k]) <= kAgreement, "{}: primal residual {} is stored, {} is right",
-            place, primal, residuals_[k]);
+    require(std::abs(primal - residuals_[k]) <= tolerance::kAgreement,
+            "{}: primal residual {} is stored, {} is right", place, primal, residuals_[k]);
     if (outcome != Outcome::kOptimal) return;
     require(residuals_[k] <= tolerance::kPrimalResidual,
             "{}: its state violates equilibrium or contact conditions by {}", place, residuals_[k]);
@@ -180,9 +176,9 @@ class Verifier {
             "{}: dual residual {} of a certified value", place, ranges_.dual_residual(contact, column));
     std::vector<int> active(ranges_.active.row(vertex).begin(), ranges_.active.row(vertex).end());
     double gap = oracle_.optimality_gap(component, sign, active);
-    if (gap > kTight) gap = oracle_.optimality_gap(component, sign, tight_[k]);
+    if (gap > tolerance::kOptimalityGap) gap = oracle_.optimality_gap(component, sign, tight_[k]);
     report_.worst_optimality_gap = std::max(report_.worst_optimality_gap, gap);
-    require(gap <= kTight, "{}: the value {} is not optimal (gap {})", place, value, gap);
+    require(gap <= tolerance::kOptimalityGap, "{}: the value {} is not optimal (gap {})", place, value, gap);
   }
 
   double distance(int first, int second) const {
@@ -191,7 +187,7 @@ class Verifier {
   }
 
   static double place_in_range(double simulated, double low, double high, double unit) {
-    if (!std::isfinite(high - low) || !(high - low > tolerance::kSliding * unit)) return ForceRanges::kNaN;
+    if (!std::isfinite(high - low) || !(high - low > tolerance::kPointRange * unit)) return ForceRanges::kNaN;
     return (simulated - low) / (high - low);
   }
 

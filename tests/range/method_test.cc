@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "libindet/range/analyze.h"
 #include "tests/support/compare.h"
@@ -102,6 +104,38 @@ TEST(Methods, ThePaperIsRightOrSaysSoInPiles) {
     expect_right_or_marked(lp, paper);
     RC_ASSERT(!testing::Test::HasFailure());
   }));
+}
+
+// The ensemble compares both, and does not search twice.
+TEST(Methods, TellTheStatesOfASearchWithoutCanonicalOnes) {
+  int number = 0;
+  int others = 0;
+  std::vector<Packing> packings = scenes();
+  for (const std::uint64_t seed : {1, 2, 3}) packings.push_back(zoo::random_pile(seed, 14, 0.5));
+  for (const Packing& packing : packings) {
+    for (const Method method : {Method::kLp, Method::kPivotingTableau, Method::kPivotingPaper}) {
+      SCOPED_TRACE(std::to_string(number++) + " " + to_string(method));
+      AnalyzeOptions options;
+      options.method = method;
+      options.solver_states = true;
+      const ForceRanges both = analyze(packing, options);
+      options.solver_states = options.canonical_states = false;
+      const ForceRanges landed = analyze(packing, options);
+      EXPECT_FALSE(landed.solver_states);
+      ASSERT_TRUE(both.solver_states);
+      EXPECT_TRUE((both.solver_states->vertex == landed.vertex).all());
+      ASSERT_EQ(both.solver_states->states.rows(), landed.states.rows());
+      EXPECT_EQ(both.solver_states->states, landed.states);
+      const StateDistances distances =
+          state_distances(both.solver_states->states, both.solver_states->vertex, both.force_unit);
+      EXPECT_TRUE(test::same_entries(distances.d_R, landed.d_R, 0));
+      EXPECT_TRUE(test::same_entries(distances.d_T, landed.d_T, 0));
+      others += both.states.rows() == landed.states.rows() ? 0 : 1;
+      EXPECT_TRUE(test::same_bytes(analyze_by(method, packing), both))
+          << "the canonical states stay the same";
+    }
+  }
+  EXPECT_GT(others, 10);
 }
 
 TEST(Methods, FailuresOfThePaperAreCounted) {

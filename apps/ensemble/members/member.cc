@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "apps/bridge/perturb_record.h"
 #include "apps/bridge/simulation_values.h"
@@ -57,20 +58,18 @@ void simulate_member(const EnsembleConfig& config, const Member& member, const s
 void analyze_member(const EnsembleConfig& config, const ProgressCallback& progress, MemberResult& result) {
   AnalyzeOptions options;
   options.progress = progress;
-  {
-    const Stopwatch watch;
-    result.ranges = analyze(result.packing, options);
-    result.seconds["analyze"] = watch.seconds();
-  }
-  result.extremal = count_extremal_forces(result.ranges);
-  if (!config.solver_states) return;
+  options.solver_states = config.solver_states;
   const Stopwatch watch;
-  options.canonical_states = false;
-  const ForceRanges landed = analyze(result.packing, options);
-  result.solver_d_R = landed.d_R;
-  result.solver_d_T = landed.d_T;
-  result.solver_extremal = count_extremal_forces(landed);
-  result.seconds["analyze_solver_states"] = watch.seconds();
+  result.ranges = analyze(result.packing, options);
+  result.seconds["analyze"] = watch.seconds();
+  const double unit = result.ranges.force_unit;
+  result.extremal = count_extremal_forces(result.ranges.states, result.ranges.vertex, unit);
+  if (!result.ranges.solver_states) return;
+  const SolverStates& landed = *result.ranges.solver_states;
+  StateDistances distances = state_distances(landed.states, landed.vertex, unit);
+  result.solver_d_R = std::move(distances.d_R);
+  result.solver_d_T = std::move(distances.d_T);
+  result.solver_extremal = count_extremal_forces(landed.states, landed.vertex, unit);
 }
 
 /// The accepted solutions in the order in which they were found: 2M × S.
@@ -109,16 +108,17 @@ void sample_member_uniformly(const EnsembleConfig& config, const Member& member,
 
 }  // namespace
 
-ExtremalForces count_extremal_forces(const ForceRanges& ranges) {
+ExtremalForces count_extremal_forces(const Rows<double>& states, const Table4<std::int32_t>& vertex,
+                                     double force_unit) {
   ExtremalForces result;
-  const Eigen::Index contacts = ranges.vertex.rows();
+  const Eigen::Index contacts = vertex.rows();
   for (std::size_t column = 0; column < 4; ++column) {
     std::vector<std::int32_t>& counts = result.counts[column];
     for (Eigen::Index i = 0; i < contacts; ++i) {
-      const int row = ranges.vertex(i, static_cast<Eigen::Index>(column));
+      const int row = vertex(i, static_cast<Eigen::Index>(column));
       if (row < 0) continue;
       for (Eigen::Index c = 0; c < contacts; ++c) {
-        const double force = std::max(0.0, ranges.states(row, 2 * c) / ranges.force_unit);
+        const double force = std::max(0.0, states(row, 2 * c) / force_unit);
         const auto bin = static_cast<std::size_t>(force);
         if (bin >= counts.size()) counts.resize(bin + 1, 0);
         ++counts[bin];

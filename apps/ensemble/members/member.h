@@ -22,7 +22,9 @@ struct ExtremalForces {
   std::array<std::vector<std::int32_t>, 4> counts;
 };
 
-ExtremalForces count_extremal_forces(const ForceRanges& ranges);
+/// `vertex`: rows of `states`, which are in the scene's units.
+ExtremalForces count_extremal_forces(const Rows<double>& states, const Table4<std::int32_t>& vertex,
+                                     double force_unit);
 
 /// Everything that was found about one packing.
 struct MemberResult {

@@ -59,7 +59,7 @@ void add_uniform_sampling(const EnsembleConfig& config, double disks, Member& me
 /// with 95 to 400. It orders the members and feeds the estimate of the remaining time.
 double cost_of(const EnsembleConfig& config, Protocol protocol, double disks) {
   const double size = disks / 95;
-  const double analysis = config.solver_states ? 0.31 : 0.21;
+  const double analysis = 0.21;
   const bool implicit = config.molecular_dynamics.gamma > 1e4;
   double rest = 0.0034 * config.sampling.samples;
   if (protocol == Protocol::kCd1) rest += 0.5;

@@ -53,11 +53,9 @@ constexpr std::array<AttributeColumn, 15> kAttributes = {{
 }};
 
 /// Seconds.
-constexpr std::array<AttributeColumn, 5> kTimings = {{
+constexpr std::array<AttributeColumn, 4> kTimings = {{
     {"simulate", "/provenance/timings", "simulate", "s", "simulation"},
-    {"analyze", "/provenance/timings", "analyze", "s", "ranges and canonical extremal states"},
-    {"analyze_solver_states", "/provenance/timings", "analyze_solver_states", "s",
-     "ranges again, with the solver's own extremal states"},
+    {"analyze", "/provenance/timings", "analyze", "s", "ranges and extremal states"},
     {"sample", "/provenance/timings", "sample", "s", "perturb and resolve"},
     {"sample_uniform", "/provenance/timings", "sample_uniform", "s", "uniform sampling, and its comparison"},
 }};
