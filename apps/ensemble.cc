@@ -16,10 +16,12 @@
 #include "apps/configuration.h"
 #include "apps/ensemble/members/run.h"
 #include "apps/ensemble_output.h"
+#include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/lp/glpk_problem.h"
+#include "libsim/memory_estimate.h"
 #include "libsim/scene_toml.h"
 
 namespace indet::app {
@@ -128,6 +130,9 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   const Plan plan = make_plan(config);
   const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
   if (o.dry_run) return list_members(plan, range, context);
+  if (!config.protocols.empty())
+    require_memory(sim::memory_estimate(config.scene.disks),
+                   fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
   const std::filesystem::path folder = o.folder;
   check_layout(folder);
   std::vector<std::filesystem::path> inputs(o.files.begin(), o.files.end());

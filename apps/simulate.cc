@@ -13,11 +13,13 @@
 
 #include "apps/bridge/simulation_values.h"
 #include "apps/command.h"
+#include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/io/destination.h"
 #include "libindet/io/simulation_file.h"
+#include "libsim/memory_estimate.h"
 #include "libsim/scene_toml.h"
 
 namespace indet::app {
@@ -125,6 +127,10 @@ SimulationOptions simulation_options_of(const SimulateOptions& o, bool rigid, co
   return options;
 }
 
+void require_memory_for(std::int64_t disks) {
+  require_memory(sim::memory_estimate(disks), fmt::format("a simulation of {}", counted(disks, "disk")));
+}
+
 /// The state that the protocol starts from.
 struct Start {
   sim::World world;
@@ -139,6 +145,7 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
   if (!o.from.empty()) {
     refuse_scene_options(command);
     const Packing packing = read_packing(open_on_trial(o.from));
+    require_memory_for(packing.disk_count());
     const sim::Friction friction = sim::friction_of(packing, {o.mu, o.wall_mu ? o.wall_mu : o.mu});
     Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
     if (o.seed) start.seed = static_cast<std::int64_t>(*o.seed);
@@ -151,6 +158,8 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
     return start;
   }
   const Scene scene = scene_of(o);
+  if (const auto reason = scene.defect()) throw InputError(*reason);
+  require_memory_for(scene.disks);
   const Scene resolved = scene.resolved();
   Start start{.world = sim::build(scene),
               .seed = static_cast<std::int64_t>(scene.seed),
