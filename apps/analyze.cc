@@ -15,6 +15,7 @@
 
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
+#include "apps/output_files.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
 #include "apps/trial_reading.h"
@@ -30,6 +31,7 @@ namespace {
 struct Options {
   std::string packing;
   std::string output;
+  bool overwrite = false;
   std::string method = "lp";
   AnalysisArguments arguments;
 };
@@ -260,8 +262,10 @@ ForceRanges prove(const Packing& packing, const Context& context, const ForceRan
 }
 
 int run(const Options& options, const Context& context) {
-  try_reading(options.packing);
-  const Packing packing = read_packing(options.packing);
+  const Packing packing = read_packing(open_on_trial(options.packing));
+  std::filesystem::path output = options.output;
+  if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
+  claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
   analysis.method = parse_method(options.method);
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
@@ -269,8 +273,6 @@ int run(const Options& options, const Context& context) {
   ForceRanges ranges = analyze(packing, analysis);
   if (is_exact(options.arguments)) ranges = prove(packing, context, ranges);
 
-  std::filesystem::path output = options.output;
-  if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
   Provenance provenance;
   provenance.arguments = context.arguments;
   provenance.config = context.resolved_config;
@@ -297,6 +299,7 @@ Command add_analyze(CLI::App& root) {
       ->add_option("-o,--output", options->output,
                    "The file to write (default: P.ranges.h5 beside the packing)")
       ->type_name("R.h5");
+  add_overwrite_option(*command, options->overwrite);
   command
       ->add_option(
           "--method", options->method,

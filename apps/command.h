@@ -35,6 +35,7 @@ struct Context {
   int threads = 0;              ///< 0: as many as the machine has.
   bool json = false;            ///< Print one JSON document on stdout instead of text.
   bool quiet = false;           ///< Neither progress nor notes on stderr.
+  std::string config_file;      ///< Of --config; empty if there is none.
   std::string resolved_config;  ///< TOML of every option of this run, as stored in the files that it writes.
   std::vector<std::string> arguments;  ///< argv.
 

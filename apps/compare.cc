@@ -186,8 +186,7 @@ int status_of(const std::vector<Entry>& entries) {
 }
 
 int run(const Options& options, const Context& context) {
-  try_reading(options.packing);
-  const Packing packing = read_packing(options.packing);
+  const Packing packing = read_packing(open_on_trial(options.packing));
   std::vector<Entry> entries;
   for (const Method method : kMethods) {
     AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);

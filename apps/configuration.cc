@@ -15,9 +15,10 @@
 namespace indet::app {
 namespace {
 
-/// Options that say where or how a run is made, not what it computes.
+/// False for options that say how this one run is made: a configuration that is read again does not carry
+/// them, and least of all the permission to overwrite.
 bool is_setting(const CLI::Option& option) {
-  static const std::vector<std::string> excluded = {"help", "version", "config"};
+  static const std::vector<std::string> excluded = {"help", "version", "config", "overwrite"};
   return !option.get_lnames().empty() &&
          std::find(excluded.begin(), excluded.end(), option.get_lnames().front()) == excluded.end();
 }

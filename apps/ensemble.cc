@@ -16,9 +16,12 @@
 #include "apps/configuration.h"
 #include "apps/ensemble/members/run.h"
 #include "apps/ensemble_output.h"
+#include "apps/memory_limit.h"
+#include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/lp/glpk_problem.h"
+#include "libsim/memory_estimate.h"
 #include "libsim/scene_toml.h"
 
 namespace indet::app {
@@ -31,6 +34,7 @@ struct EnsembleCommand {
   EnsembleConfig config;
   std::vector<std::string> protocol_names, files;
   bool dry_run = false;
+  bool overwrite = false;
   bool no_solver_states = false;
 };
 
@@ -122,12 +126,18 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   if (config.sampling.samples > 0) {
     if (const auto defect = config.sampling.defect()) throw InputError(*defect);
   }
-  for (const std::string& file : o.files) try_reading(file);
+  for (const std::string& file : o.files) open_on_trial(file);
   const Plan plan = make_plan(config);
   const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
   if (o.dry_run) return list_members(plan, range, context);
+  if (!config.protocols.empty())
+    require_memory(sim::memory_estimate(config.scene.disks),
+                   fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
   const std::filesystem::path folder = o.folder;
   check_layout(folder);
+  std::vector<std::filesystem::path> inputs(o.files.begin(), o.files.end());
+  inputs.emplace_back(o.scene_file);
+  claim_folder(folder, plan, replacement_rule(inputs, o.overwrite, context));
   try_reading(member_paths({folder}, plan), read_member);
   std::filesystem::create_directories(folder);
   write_plan(folder, plan);
@@ -193,6 +203,7 @@ Command add_ensemble(CLI::App& root) {
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the vertices that the solver lands on");
   command->add_option("--members", o->members, "Only members FIRST-LAST, to be joined by indet merge");
+  add_overwrite_option(*command, o->overwrite);
   command->add_flag("--dry-run", o->dry_run, "List the members with their estimated cost");
   return {command, [o, seeds](const Context& context) { return run(*o, seeds->count() > 0, context); }};
 }

@@ -21,6 +21,24 @@ nlohmann::json failures_json(const std::vector<MemberFailure>& failures) {
 
 }  // namespace
 
+void claim_folder(const std::filesystem::path& folder, const Plan& plan, const Replacement& rule) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  rule.require(folder / "ensemble.toml", FileKind::kPlan);
+  rule.require(folder / "ensemble.h5", FileKind::kEnsemble);
+  const bool is_own = fs::exists(folder / "ensemble.toml", error);
+  for (const Member& member : plan.members) {
+    const fs::path path = member_path(folder, member.name);
+    if (!fs::is_regular_file(path, error)) continue;
+    if (is_own) {
+      rule.require_unread(path);
+    } else {
+      rule.require(path, FileKind::kMember);
+    }
+  }
+}
+
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
                 double seconds, const Context& context) {
   if (context.json) {

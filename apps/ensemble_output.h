@@ -8,6 +8,7 @@
 #include "apps/ensemble/members/plan.h"
 #include "apps/ensemble/members/run.h"
 #include "apps/ensemble/tables/table.h"
+#include "libindet/io/replacement.h"
 
 namespace indet::app {
 
@@ -17,6 +18,11 @@ struct Outcomes {
   int skipped = 0;
   std::vector<MemberFailure> failures;
 };
+
+/// Throws InputError unless the files of an ensemble may be written into the folder. One with the
+/// ensemble.toml of an ensemble is its own, and its packings may be computed anew; what the run reads may
+/// not.
+void claim_folder(const std::filesystem::path& folder, const Plan& plan, const Replacement& rule);
 
 /// Says what a run of some members did; returns the exit status.
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,

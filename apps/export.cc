@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "apps/command.h"
+#include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
@@ -26,6 +27,7 @@ struct ExportOptions {
   std::string state = "sim";
   std::string style = "forces";
   std::string output;
+  bool overwrite = false;
 };
 
 /// A contact state and how a caption calls it.
@@ -107,17 +109,26 @@ std::string resolve_format(const ExportOptions& options) {
   return extension.empty() ? "svg" : extension.substr(1);
 }
 
+/// A picture, a table, or the files of a scene in a folder that may be there.
+void claim_outputs(const std::filesystem::path& output, const std::string& format, const Replacement& rule) {
+  if (format != "csv") return claim_output(output, FileKind::kPicture, rule);
+  if (output.extension() == ".csv") return claim_output(output, FileKind::kContactTable, rule);
+  if (!std::filesystem::is_directory(output)) return;  // made, or refused, by the writer
+  for (const char* name : kSceneFiles) claim_output(output / name, FileKind::kCsvScene, rule);
+}
+
 int run(ExportOptions options, const Context& context) {
-  try_reading(options.file);
-  const Packing packing = read_packing(options.file);
+  const Hdf5File file = open_on_trial(options.file);
+  const Packing packing = read_packing(file);
   std::optional<ForceRanges> ranges;
-  if (file_has_ranges(options.file)) ranges = read_ranges(options.file);
+  if (has_ranges(file)) ranges = read_ranges(file);
   const std::string format = resolve_format(options);
   if (options.output.empty()) {
     options.output = std::filesystem::path(options.file).stem().string() + "." + format;
   }
   const ChosenState state = choose_state(options, packing, ranges);
   const std::filesystem::path output = options.output;
+  claim_outputs(output, format, replacement_rule({options.file}, options.overwrite, context));
   if (format == "csv") {
     if (options.style != "forces") throw InputError("--style is for pictures; a table has all columns");
     if (output.extension() == ".csv") {
@@ -171,6 +182,7 @@ Command add_export(CLI::App& root) {
       "-o,--output", options->output,
       "File to write (default: the name of FILE); for csv: NAME.csv is one table of contacts, a "
       "folder is a scene that import reads");
+  add_overwrite_option(*command, options->overwrite);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -10,8 +11,10 @@
 
 #include "apps/command.h"
 #include "apps/configuration.h"
+#include "apps/output_files.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/csv_reader.h"
+#include "libindet/io/csv_writer.h"
 #include "libindet/io/lammps_reader.h"
 #include "libindet/io/packing_file.h"
 
@@ -27,6 +30,7 @@ struct ImportOptions {
   std::optional<double> friction;
   std::optional<double> balance_tolerance;
   std::string output;
+  bool overwrite = false;
 };
 
 /// "key=name" items as a map.
@@ -68,6 +72,14 @@ void check_usage(ImportOptions& options, const CLI::App& command) {
   options.lammps.friction = *options.friction;
   options.lammps.gravity = {options.gravity[0], options.gravity[1]};
   options.lammps.columns = parse_columns(options.columns);
+}
+
+/// The files that are read.
+std::vector<std::filesystem::path> inputs_of(const ImportOptions& options) {
+  if (options.format == "lammps") return {options.lammps.atoms, options.lammps.contacts};
+  std::vector<std::filesystem::path> inputs;
+  for (const char* name : kSceneFiles) inputs.push_back(std::filesystem::path(options.folder) / name);
+  return inputs;
 }
 
 nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& report, double tolerance,
@@ -122,6 +134,8 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
 
 int run(ImportOptions& options, const CLI::App& command, const Context& context) {
   check_usage(options, command);
+  claim_output(options.output, FileKind::kPacking,
+               replacement_rule(inputs_of(options), options.overwrite, context));
   ImportedPacking imported =
       options.format == "csv" ? read_csv_scene(options.folder) : read_lammps(options.lammps);
   imported.packing.origin.config = context.resolved_config;
@@ -173,6 +187,7 @@ Command add_import(CLI::App& root) {
                    "digits)")
       ->check(not_negative());
   command->add_option("-o,--output", options->output, "HDF5 file to write (required)");
+  add_overwrite_option(*command, options->overwrite);
   return {command, [options, command](const Context& context) { return run(*options, *command, context); }};
 }
 

@@ -19,6 +19,7 @@
 #include "apps/ranges_json.h"
 #include "apps/trial_reading.h"
 #include "libindet/io/balance.h"
+#include "libindet/io/file_kind.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 
@@ -69,15 +70,14 @@ std::optional<TrajectoryExtent> trajectory_of(const Hdf5File& file) {
   return TrajectoryExtent{times.size(), times.front(), times.back()};
 }
 
-FileContents read(const std::string& path) {
+FileContents read(const Hdf5File& file) {
   FileContents contents;
-  contents.packing = read_packing(path);
+  contents.packing = read_packing(file);
   ImportedPacking for_balance;
   for_balance.packing = contents.packing;
   contents.balance = report_balance(for_balance);
-  if (file_has_ranges(path)) contents.ranges = read_ranges(path);
-  contents.digests = compute_digests(path);
-  const Hdf5File file = open_indet_file(path);
+  if (has_ranges(file)) contents.ranges = read_ranges(file);
+  contents.digests = compute_digests(file);
   for (const char* name : {"version", "git", "compiler", "host", "created"}) {
     contents.provenance[name] = file.string_attribute("/provenance", name);
   }
@@ -285,9 +285,10 @@ void print_ranges(const ForceRanges& r) {
                   r.solves, r.pivots));
 }
 
-int inspect_ensemble(const std::string& path, const Context& context) {
-  const EnsembleContents contents = read_ensemble(path);
-  const Digests digests = compute_digests(path);
+int inspect_ensemble(const Hdf5File& file, const Context& context) {
+  const std::string path = file.path().string();
+  const EnsembleContents contents = read_ensemble(file);
+  const Digests digests = compute_digests(file);
   const FlatTable& runs = contents.tables.runs;
   std::map<std::string, int> protocols;
   for (std::size_t row = 0; row < runs.rows(); ++row) ++protocols[runs.text("protocol", row)];
@@ -316,9 +317,9 @@ int inspect_ensemble(const std::string& path, const Context& context) {
 
 int run(const std::string& given, const Context& context) {
   const std::string path = std::filesystem::is_directory(given) ? given + "/ensemble.h5" : given;
-  try_reading(path);
-  if (file_is_ensemble(path)) return inspect_ensemble(path, context);
-  const FileContents contents = read(path);
+  const Hdf5File file = open_on_trial(path);
+  if (kind_of(file) == FileKind::kEnsemble) return inspect_ensemble(file, context);
+  const FileContents contents = read(file);
   if (context.json) {
     std::cout << to_json(path, contents).dump(2) << '\n';
     return kDone;

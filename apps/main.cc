@@ -46,8 +46,8 @@ int run(int argc, char** argv) {
                         "Print the version and exit");
   root.require_subcommand(1);
   Context context;
-  std::string config_file;
-  root.add_option("--config", config_file, "Read options from this TOML file (a table for each subcommand)")
+  root.add_option("--config", context.config_file,
+                  "Read options from this TOML file (a table for each subcommand)")
       ->type_name("FILE");
   root.add_option("--threads", context.threads, "Threads to use; results do not depend on it (0: one a core)")
       ->check(not_negative())
@@ -60,7 +60,7 @@ int run(int argc, char** argv) {
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
-    parse_with_configuration(root, arguments, config_file);
+    parse_with_configuration(root, arguments, context.config_file);
   } catch (const CLI::RequiredError& error) {
     if (root.get_subcommands().empty() && !root.remaining().empty()) {
       throw UsageError(fmt::format("'{}' is not a subcommand (see indet --help)", root.remaining().front()));

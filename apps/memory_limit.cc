@@ -4,8 +4,14 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <fstream>
+#include <limits>
+
+#include "libindet/base/error.h"
 
 namespace indet::app {
 namespace {
@@ -23,7 +29,53 @@ std::size_t blas_threads() {
   return get_threads == nullptr ? 1 : static_cast<std::size_t>(get_threads());
 }
 
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+/// Free memory and swap of the machine.
+std::size_t left_on_machine() {
+  std::ifstream file("/proc/meminfo");
+  std::size_t kilobytes = 0;
+  bool found = false;
+  for (std::string name, unit; file >> name;) {
+    std::size_t value = 0;
+    file >> value;
+    std::getline(file, unit);
+    if (name != "MemAvailable:" && name != "SwapFree:") continue;
+    kilobytes += value;
+    found = true;
+  }
+  return found ? 1024 * kilobytes : kUnlimited;
+}
+
+std::size_t limit_of_group() {
+  std::ifstream file("/sys/fs/cgroup/memory.max");
+  std::size_t bytes = 0;
+  return file >> bytes ? bytes : kUnlimited;  // "max" is no number
+}
+
+std::size_t left_of_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0;
+  file >> pages;
+  const std::size_t used = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+}
+
+std::string size_text(std::size_t bytes) {
+  const double megabytes = static_cast<double>(bytes) / kMegabyte;
+  return megabytes < 1024 ? fmt::format("{:.0f} MB", megabytes) : fmt::format("{:.1f} GB", megabytes / 1024);
+}
+
 }  // namespace
+
+void require_memory(std::size_t bytes, const std::string& task) {
+  const std::size_t left = std::min({left_on_machine(), limit_of_group(), left_of_address_space()});
+  if (bytes <= left) return;
+  throw InputError(fmt::format("{} takes about {} of memory, but {} are available", task, size_text(bytes),
+                               size_text(left)));
+}
 
 std::string lack_of_memory() {
   rlimit limit{};

@@ -12,6 +12,7 @@
 #include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/tables/table.h"
 #include "apps/ensemble_output.h"
+#include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 
@@ -24,6 +25,7 @@ struct MergeCommand {
   std::vector<std::string> parts;
   std::string folder;
   bool allow_missing = false;
+  bool overwrite = false;
 };
 
 /// A second name for the same bytes where the file system can, else a copy that appears whole.
@@ -48,9 +50,10 @@ int run(const MergeCommand& o, const Context& context) {
     }
   }
   const fs::path folder = o.folder;
+  claim_folder(folder, plan, replacement_rule({}, o.overwrite, context));
   // What an earlier merge brought there is the same file under two names.
   std::vector<fs::path> folders = parts;
-  if (fs::exists(folder / "ensemble.toml")) {
+  if (fs::exists(folder / "ensemble.toml") && recognise(folder / "ensemble.toml") == FileKind::kPlan) {
     if (read_plan(folder).hash() != plan.hash())
       throw InputError(fmt::format("{} holds another ensemble", folder.string()));
     const bool listed = std::any_of(parts.begin(), parts.end(),
@@ -94,6 +97,7 @@ Command add_merge(CLI::App& root) {
   command->add_option("parts", o->parts, "Folders of the parts")->required()->check(CLI::ExistingDirectory);
   command->add_option("-o,--out", o->folder, "Folder to write")->required();
   command->add_flag("--allow-missing", o->allow_missing, "Join what is there even if members are missing");
+  add_overwrite_option(*command, o->overwrite);
   return {command, [o](const Context& context) { return run(*o, context); }};
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/command.h"
 #include "apps/ensemble/presentation/html_report.h"
+#include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
@@ -30,11 +31,10 @@ std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& t
     const fs::path first = member_path(folder, name);
     const fs::path second = member_path(folder, simulated_name(sim::Protocol::kMd2, seed));
     if (!fs::exists(first) || !fs::exists(second)) continue;
-    try_reading(first);
-    try_reading(second);
-    const Packing cd1 = read_packing(first);
-    const Packing md2 = read_packing(second);
-    const ForceRanges ranges = read_ranges(first);
+    const Hdf5File file = open_on_trial(first);
+    const Packing cd1 = read_packing(file);
+    const Packing md2 = read_packing(open_on_trial(second));
+    const ForceRanges ranges = read_ranges(file);
     if (ranges.largest_norm < 0) continue;
     const fs::path figures = folder / "figures";
     draw_forces(figures / "fig05a.svg", cd1, cd1.simulated_forces().value(), name);
@@ -55,22 +55,27 @@ std::vector<Picture> draw_states(const fs::path& folder, const EnsembleTables& t
   return pictures;
 }
 
-int run(const std::string& path, const Context& context) {
-  const fs::path folder = path;
+struct ReportCommand {
+  std::string folder;
+  bool overwrite = false;
+};
+
+int run(const ReportCommand& o, const Context& context) {
+  const fs::path folder = o.folder;
   check_layout(folder);
   if (!fs::exists(folder / "ensemble.h5")) {
     throw InputError(
-        fmt::format("{}: has no ensemble.h5; make one with indet ensemble or indet merge", path));
+        fmt::format("{}: has no ensemble.h5; make one with indet ensemble or indet merge", o.folder));
   }
-  try_reading(folder / "ensemble.h5");
-  const EnsembleContents contents = read_ensemble(folder / "ensemble.h5");
+  const Hdf5File file = open_on_trial(folder / "ensemble.h5");
+  const EnsembleContents contents = read_ensemble(file);
   std::vector<std::pair<std::string, std::string>> about;
-  {
-    const Hdf5File file = open_indet_file(folder / "ensemble.h5");
-    for (const char* name : {"version", "git", "compiler", "host", "created"})
-      about.emplace_back(name, file.string_attribute("/provenance", name));
-    about.emplace_back("SHA-256 of the numbers", file.string_attribute("/", "content_sha256"));
-  }
+  for (const char* name : {"version", "git", "compiler", "host", "created"})
+    about.emplace_back(name, file.string_attribute("/provenance", name));
+  about.emplace_back("SHA-256 of the numbers", file.string_attribute("/", "content_sha256"));
+  const Replacement rule = replacement_rule({file.path()}, o.overwrite, context);
+  rule.require(folder / "report.html", FileKind::kReport);
+  rule.require_folder(folder / "figures", "comparison.csv");
   fs::create_directories(folder / "figures");
   const std::vector<Picture> pictures = draw_states(folder, contents.tables);
   write_report(folder, contents, pictures, about, context.progress());
@@ -87,10 +92,13 @@ int run(const std::string& path, const Context& context) {
 }  // namespace
 
 Command add_report(CLI::App& root) {
-  const auto path = std::make_shared<std::string>();
+  const auto o = std::make_shared<ReportCommand>();
   CLI::App* command = root.add_subcommand("report", "Draw the figures and tables of an ensemble");
-  command->add_option("folder", *path, "Folder of an ensemble")->required()->check(CLI::ExistingDirectory);
-  return {command, [path](const Context& context) { return run(*path, context); }};
+  command->add_option("folder", o->folder, "Folder of an ensemble")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  add_overwrite_option(*command, o->overwrite);
+  return {command, [o](const Context& context) { return run(*o, context); }};
 }
 
 }  // namespace indet::app

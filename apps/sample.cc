@@ -9,6 +9,7 @@
 
 #include "apps/bridge/perturb_record.h"
 #include "apps/command.h"
+#include "apps/output_files.h"
 #include "apps/sample_uniform.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
@@ -20,6 +21,7 @@ namespace {
 
 struct SampleOptions {
   std::string file, output;
+  bool overwrite = false;
   std::string method = "perturb";
   std::uint64_t seed = 0;
   int chains = 0;  ///< 0: the default of the method
@@ -65,11 +67,13 @@ void refuse_unused(const SampleOptions& o) {
 int run(SampleOptions o, const Context& context) {
   refuse_unused(o);
   const auto begin = std::chrono::steady_clock::now();
-  try_reading(o.file);
-  const Packing packing = read_packing(o.file);
+  const Hdf5File file = open_on_trial(o.file);
+  const Packing packing = read_packing(file);
+  if (!o.output.empty())
+    claim_output(o.output, FileKind::kSamples, replacement_rule({o.file}, o.overwrite, context));
   o.uniform.sampling.seed = o.perturb.seed = o.seed;
   if (o.chains != 0) o.uniform.sampling.chains = o.perturb.chains = o.chains;
-  if (o.method == "uniform") return sample_uniformly(o.file, o.output, packing, o.uniform, context);
+  if (o.method == "uniform") return sample_uniformly(file, o.output, packing, o.uniform, context);
   o.perturb.threads = context.thread_count();
   const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(packing, o.perturb, context.progress());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -177,6 +181,7 @@ Command add_sample(CLI::App& root) {
   add_perturb_options(*command, perturb);
   add_uniform_options(*command, options->uniform);
   command->add_option("-o,--output", options->output, "HDF5 file to write: the packing with /sampling");
+  add_overwrite_option(*command, options->overwrite);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

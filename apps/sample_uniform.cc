@@ -115,9 +115,9 @@ void print(const Packing& packing, const Findings& f, const UniformSettings& set
   }
 }
 
-void find_shape(const std::string& file, const Packing& packing, const UniformSettings& settings,
+void find_shape(const Hdf5File& file, const Packing& packing, const UniformSettings& settings,
                 const Context& context, Findings& f, std::optional<ForceRanges>& ranges) {
-  if (file_has_ranges(file)) {
+  if (has_ranges(file)) {
     ranges = read_ranges(file);
   } else {
     AnalyzeOptions options;
@@ -159,8 +159,9 @@ void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findin
 
 }  // namespace
 
-int sample_uniformly(const std::string& file, const std::string& output, const Packing& packing,
+int sample_uniformly(const Hdf5File& file, const std::string& output, const Packing& packing,
                      UniformSettings settings, const Context& context) {
+  const std::string path = file.path().string();
   settings.sampling.threads = context.thread_count();
   settings.sampling.progress = context.progress();
   if (const auto reason = settings.sampling.defect()) throw UsageError(*reason);
@@ -168,18 +169,18 @@ int sample_uniformly(const std::string& file, const std::string& output, const P
   f.polytope = find_force_polytope(packing);
   if (f.polytope.status == PolytopeStatus::kEmpty) {
     if (context.json) {
-      const nlohmann::json json = {{"file", file}, {"method", "uniform"}, {"stopped_by", "empty"}};
+      const nlohmann::json json = {{"file", path}, {"method", "uniform"}, {"stopped_by", "empty"}};
       std::cout << json.dump(2) << '\n';
     }
     context.warn(
-        fmt::format("{}: no contact forces balance the load; indet analyze shows which disks move", file));
+        fmt::format("{}: no contact forces balance the load; indet analyze shows which disks move", path));
     return f.polytope.doubtful ? kUncertain : kNoAdmissibleState;
   }
   if (f.polytope.status == PolytopeStatus::kUnbounded) {
     throw InputError(
         fmt::format("{}: the contact forces can grow without limit, so that no distribution over them is "
                     "uniform; along a ray grow {}",
-                    file, describe_ray(packing, f.polytope)));
+                    path, describe_ray(packing, f.polytope)));
   }
   std::optional<ForceRanges> ranges;
   if (f.polytope.status == PolytopeStatus::kPoint) {
@@ -212,7 +213,7 @@ int sample_uniformly(const std::string& file, const std::string& output, const P
     write_sampling(output, packing, record, provenance);
   }
   if (context.json) {
-    nlohmann::json json = {{"file", file}, {"method", "uniform"}, {"seconds", f.sample.seconds}};
+    nlohmann::json json = {{"file", path}, {"method", "uniform"}, {"seconds", f.sample.seconds}};
     json["core_seconds"] = f.sample.core_seconds;
     json["stopped_by"] = !f.body ? "point" : f.sample.converged ? "convergence" : "limit";
     for (const auto& [name, value] : record.numbers) json[name] = value;

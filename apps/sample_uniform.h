@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/command.h"
+#include "libindet/io/hdf5_file.h"
 #include "libindet/packing/packing.h"
 #include "libindet/sampling/uniform_sampling.h"
 
@@ -18,7 +19,7 @@ struct UniformSettings {
 
 /// indet sample --method uniform. `file` is named in messages and searched for force ranges; `output` may be
 /// empty.
-int sample_uniformly(const std::string& file, const std::string& output, const Packing& packing,
+int sample_uniformly(const Hdf5File& file, const std::string& output, const Packing& packing,
                      UniformSettings settings, const Context& context);
 
 }  // namespace indet::app

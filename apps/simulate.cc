@@ -13,9 +13,13 @@
 
 #include "apps/bridge/simulation_values.h"
 #include "apps/command.h"
+#include "apps/memory_limit.h"
+#include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/simulation_file.h"
+#include "libsim/memory_estimate.h"
 #include "libsim/scene_toml.h"
 
 namespace indet::app {
@@ -43,6 +47,7 @@ struct SimulateOptions {
   double every = 0;
   double checkpoint = 600;
   bool resume = false;
+  bool overwrite = false;
 
   sim::Protocol protocol() const { return sim::protocol_from(protocol_name).value(); }
 };
@@ -122,6 +127,10 @@ SimulationOptions simulation_options_of(const SimulateOptions& o, bool rigid, co
   return options;
 }
 
+void require_memory_for(std::int64_t disks) {
+  require_memory(sim::memory_estimate(disks), fmt::format("a simulation of {}", counted(disks, "disk")));
+}
+
 /// The state that the protocol starts from.
 struct Start {
   sim::World world;
@@ -135,8 +144,8 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
   const bool second = starts_from_cd1(o.protocol());
   if (!o.from.empty()) {
     refuse_scene_options(command);
-    try_reading(o.from);
-    const Packing packing = read_packing(o.from);
+    const Packing packing = read_packing(open_on_trial(o.from));
+    require_memory_for(packing.disk_count());
     const sim::Friction friction = sim::friction_of(packing, {o.mu, o.wall_mu ? o.wall_mu : o.mu});
     Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
     if (o.seed) start.seed = static_cast<std::int64_t>(*o.seed);
@@ -149,6 +158,8 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
     return start;
   }
   const Scene scene = scene_of(o);
+  if (const auto reason = scene.defect()) throw InputError(*reason);
+  require_memory_for(scene.disks);
   const Scene resolved = scene.resolved();
   Start start{.world = sim::build(scene),
               .seed = static_cast<std::int64_t>(scene.seed),
@@ -193,8 +204,20 @@ void print_report(const Packing& packing, const sim::Simulation& result, double 
   fmt::print("{} steps in {:.2f} s\n", result.settled.report.steps, seconds);
 }
 
+std::filesystem::path checkpoint_path_of(const SimulateOptions& o) { return o.output + ".checkpoint"; }
+
+/// Returns whether checkpoints can be written beside the output.
+bool claim_outputs(const SimulateOptions& o, const Context& context) {
+  const Replacement rule = replacement_rule({o.scene_file, o.from}, o.overwrite, context);
+  claim_output(o.output, FileKind::kPacking, rule);
+  if (destination_of(o.output).is_stream) return false;
+  rule.require(checkpoint_path_of(o), FileKind::kCheckpoint);
+  return true;
+}
+
 int run(const SimulateOptions& o, const CLI::App& command, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
+  const bool has_checkpoints = claim_outputs(o, context);
   const bool rigid = is_simulated_by(o.protocol(), sim::Simulator::kContactDynamics);
   const Start start = start_of(o, command, context);
   SimulationOptions options = simulation_options_of(o, rigid, command);
@@ -202,14 +225,13 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
       o.time_limit.value_or(start.height > 0 ? sim::default_time_limit(start.world, start.height) : 0);
   if (const auto reason = options.defect(start.world)) throw InputError(*reason);
 
-  const std::filesystem::path checkpoint_path = o.output + ".checkpoint";
+  const std::filesystem::path checkpoint_path = checkpoint_path_of(o);
   const std::string fingerprint = start.description + to_toml(options) + fmt::format("every = {}\n", o.every);
   const Provenance about{context.arguments, context.resolved_config, {}, {}};
   Trajectory trajectory;
   std::optional<sim::Checkpoint> resume;
-  if (o.resume && std::filesystem::exists(checkpoint_path)) {
-    try_reading(checkpoint_path);
-    const StoredCheckpoint checkpoint = read_checkpoint(checkpoint_path);
+  if (o.resume && has_checkpoints && std::filesystem::exists(checkpoint_path)) {
+    const StoredCheckpoint checkpoint = read_checkpoint(open_on_trial(checkpoint_path));
     if (checkpoint.fingerprint != fingerprint) {
       throw InputError(
           fmt::format("{} belongs to a run with other options; delete it, or run without --resume",
@@ -223,7 +245,7 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   listener.progress = context.progress();
   listener.frame_interval = o.every;
   listener.on_frame = [&](const sim::Frame& frame) { trajectory.push_back(frame_of(frame, start.world)); };
-  listener.checkpoint_seconds = o.checkpoint;
+  listener.checkpoint_seconds = has_checkpoints ? o.checkpoint : 0;
   listener.on_checkpoint = [&](const sim::Checkpoint& checkpoint) {
     write_checkpoint(checkpoint_path, stored(checkpoint, fingerprint, trajectory), about);
     context.note(fmt::format("{} written; go on with --resume", checkpoint_path.string()));
@@ -242,7 +264,7 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   Provenance provenance = about;
   provenance.seconds["simulate"] = seconds;
   write_simulation(o.output, packing, record, trajectory, provenance);
-  std::filesystem::remove(checkpoint_path);
+  if (has_checkpoints) std::filesystem::remove(checkpoint_path);
 
   if (context.json) {
     std::cout << to_json(o, packing, record, seconds).dump(2) << '\n';
@@ -334,6 +356,7 @@ Command add_simulate(CLI::App& root) {
   command->add_option("--from", options->from, "Start from the positions of this packing")
       ->check(CLI::ExistingFile);
   command->add_option("-o,--output", options->output, "HDF5 file to write")->required();
+  add_overwrite_option(*command, options->overwrite);
   command
       ->add_option("--every", options->every,
                    "Store a frame of the trajectory at this interval of simulated time")

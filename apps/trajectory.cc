@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/command.h"
+#include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/trajectory_picture.h"
@@ -17,21 +18,23 @@ namespace {
 
 struct TrajectoryOptions {
   std::string file, output;
+  bool overwrite = false;
   int frames = 6;
   bool animate = false;
   double seconds = 10;
 };
 
 int run(const TrajectoryOptions& o, const Context& context) {
-  try_reading(o.file);
-  const Packing packing = read_packing(o.file);
-  const Trajectory trajectory = read_trajectory(o.file);
+  const Hdf5File file = open_on_trial(o.file);
+  const Packing packing = read_packing(file);
+  const Trajectory trajectory = read_trajectory(file);
   if (trajectory.empty() || trajectory.front().positions.size() != packing.disks.size()) {
     throw InputError(fmt::format("{}: the trajectory does not fit its packing", o.file));
   }
   if (std::filesystem::path(o.output).extension() != ".svg") {
     throw InputError(fmt::format("{}: must end with .svg", o.output));
   }
+  claim_output(o.output, FileKind::kPicture, replacement_rule({o.file}, o.overwrite, context));
   if (o.animate) {
     draw_trajectory_animation(o.output, packing, trajectory, o.seconds);
   } else {
@@ -61,6 +64,7 @@ Command add_trajectory(CLI::App& root) {
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--output", options->output, "SVG file to write")->required();
+  add_overwrite_option(*command, options->overwrite);
   command->add_option("--frames", options->frames, "Frames side by side in the strip")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "apps/ensemble/tables/ensemble_file.h"
 #include "libindet/base/error.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
@@ -110,15 +111,18 @@ void try_reading(const std::vector<std::filesystem::path>& paths, const Read& re
                                is_endless ? "did not come to an end" : "was stopped by an error of its own"));
 }
 
-void try_reading(const std::string& path) {
-  try_reading({path}, [](const std::filesystem::path& file) {
+Hdf5File open_on_trial(const std::filesystem::path& path) {
+  try_reading({path}, [](const std::filesystem::path& tried) {
+    const Hdf5File file = open_indet_file(tried);
     attempt([&] { read_packing(file); });
     attempt([&] { read_ranges(file); });
     attempt([&] { read_sampling(file); });
     attempt([&] { read_trajectory(file); });
     attempt([&] { read_checkpoint(file); });
+    attempt([&] { read_ensemble(file); });
     attempt([&] { compute_digests(file); });
   });
+  return open_indet_file(path);
 }
 
 }  // namespace indet::app

@@ -2,8 +2,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
 #include <vector>
+
+#include "libindet/io/hdf5_file.h"
 
 namespace indet::app {
 
@@ -14,7 +15,8 @@ namespace indet::app {
 void try_reading(const std::vector<std::filesystem::path>& paths,
                  const std::function<void(const std::filesystem::path&)>& read);
 
-/// The same for one file with the readers of all of its parts.
-void try_reading(const std::string& path);
+/// Opens a file of indet once its parts were read on trial. The handle is passed on to all readers, so that
+/// they read the same file. Throws InputError.
+Hdf5File open_on_trial(const std::filesystem::path& path);
 
 }  // namespace indet::app

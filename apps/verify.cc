@@ -19,11 +19,11 @@ namespace indet::app {
 namespace {
 
 /// What contradicts what in the file: its digests first, then its results.
-Verification verify_file(const std::string& path, const Context& context) {
+Verification verify_file(const Hdf5File& file, const Context& context) {
   Verification result;
-  const Digests digests = compute_digests(path);
-  const Packing packing = read_packing(path);
-  if (file_has_ranges(path)) result = verify_ranges(packing, read_ranges(path), context.progress());
+  const Digests digests = compute_digests(file);
+  const Packing packing = read_packing(file);
+  if (has_ranges(file)) result = verify_ranges(packing, read_ranges(file), context.progress());
   ++result.checks;
   if (!digests.match()) {
     ++result.contradictions;
@@ -71,18 +71,18 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
 
 int run(const Options& options, const Context& context) {
   const std::string& path = options.file;
-  try_reading(path);
-  const Verification result = verify_file(path, context);
+  const Hdf5File file = open_on_trial(path);
+  const Verification result = verify_file(file, context);
   std::optional<ExactCheck> check;
   std::optional<ForceRanges> ranges;
   double seconds = 0;
   if (options.exact) {
     const auto start = std::chrono::steady_clock::now();
-    ranges = read_ranges(path);
+    ranges = read_ranges(file);
     ExactCheckOptions exact;
     exact.threads = context.thread_count();
     exact.progress = context.progress();
-    check = check_exactly(read_packing(path), *ranges, exact);
+    check = check_exactly(read_packing(file), *ranges, exact);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   if (context.json) {

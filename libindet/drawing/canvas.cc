@@ -9,8 +9,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/io/picture_mark.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -61,6 +63,7 @@ Canvas::Canvas(const std::filesystem::path& path, double width, double height)
     cairo_svg_surface_set_document_unit(state_->surface.get(), CAIRO_SVG_UNIT_PT);
   } else if (extension == ".pdf") {
     state_->surface.reset(cairo_pdf_surface_create_for_stream(&append, &state_->bytes, width, height));
+    cairo_pdf_surface_set_metadata(state_->surface.get(), CAIRO_PDF_METADATA_CREATOR, kPdfCreator);
   } else if (extension == ".png") {
     state_->pixels = true;
     state_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
@@ -156,6 +159,8 @@ void Canvas::finish() {
     cairo_surface_finish(state_->surface.get());
     check(cairo_surface_status(state_->surface.get()));
   }
+  if (state_->pixels) state_->bytes = mark_png(std::move(state_->bytes));
+  if (state_->path.extension() == ".svg") state_->bytes = mark_svg(std::move(state_->bytes));
   write_whole_file(state_->path, state_->bytes);
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string>
 
+#include "libindet/io/picture_mark.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -128,7 +129,7 @@ void draw_trajectory_strip(const std::filesystem::path& path, const Packing& pac
                                             static_cast<std::size_t>(count - 1);
     svg += framed(view, trajectory[at], kGap + i * (view.width() + kGap));
   }
-  write_whole_file(path, svg + "</svg>\n");
+  write_whole_file(path, mark_svg(svg + "</svg>\n"));
 }
 
 void draw_trajectory_animation(const std::filesystem::path& path, const Packing& packing,
@@ -155,7 +156,7 @@ void draw_trajectory_animation(const std::filesystem::path& path, const Packing&
     svg += fmt::format(" calcMode='discrete' dur='{}s' repeatCount='indefinite'/>\n", seconds);
     svg += framed(view, trajectory[i], kGap) + "</g>\n";
   }
-  write_whole_file(path, svg + "</svg>\n");
+  write_whole_file(path, mark_svg(svg + "</svg>\n"));
 }
 
 }  // namespace indet

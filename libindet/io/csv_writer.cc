@@ -16,6 +16,12 @@
 namespace indet {
 namespace {
 
+constexpr std::string_view kDisksBegin = "id,x,y,radius,mass,inertia,angle,vx,vy,omega,fx,fy,torque\n";
+constexpr std::string_view kWallsBegin = "id,px,py,nx,ny,name\n";
+constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap\n";
+constexpr std::string_view kSceneBegin = "gravity = [";
+constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu,";
+
 /// The shortest text that reads back as the same number; empty for NaN.
 std::string field(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
@@ -52,7 +58,7 @@ struct FileIds {
 };
 
 std::string disks_text(const Packing& packing, const FileIds& ids) {
-  std::string text = "id,x,y,radius,mass,inertia,angle,vx,vy,omega,fx,fy,torque\n";
+  std::string text(kDisksBegin);
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     const Disk& d = packing.disks[i];
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", ids.disks[i], d.position.x(),
@@ -63,7 +69,7 @@ std::string disks_text(const Packing& packing, const FileIds& ids) {
 }
 
 std::string walls_text(const Packing& packing, const FileIds& ids) {
-  std::string text = "id,px,py,nx,ny,name\n";
+  std::string text(kWallsBegin);
   for (std::size_t i = 0; i < packing.walls.size(); ++i) {
     const Wall& w = packing.walls[i];
     text += fmt::format("{},{},{},{},{},{}\n", ids.walls[i], w.point.x(), w.point.y(), w.normal.x(),
@@ -74,7 +80,7 @@ std::string walls_text(const Packing& packing, const FileIds& ids) {
 
 std::string contacts_text(const Packing& packing, const FileIds& ids,
                           const Eigen::Ref<const Eigen::VectorXd>& forces) {
-  std::string text = "a,b,nx,ny,mu,R,T,gap\n";
+  std::string text(kContactsBegin);
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& c = packing[ContactId(i)];
     text += fmt::format("{},{},{},{},{},{},{},{}\n", ids.of(c.a), ids.of(c.b), c.normal.x(), c.normal.y(),
@@ -84,7 +90,7 @@ std::string contacts_text(const Packing& packing, const FileIds& ids,
 }
 
 std::string scene_text(const Packing& packing) {
-  std::string text = fmt::format("gravity = [{}, {}]\n", packing.gravity.x(), packing.gravity.y());
+  std::string text = fmt::format("{}{}, {}]\n", kSceneBegin, packing.gravity.x(), packing.gravity.y());
   if (packing.named_force_unit > 0) text += fmt::format("force_unit = {}\n", packing.named_force_unit);
   return text;
 }
@@ -136,7 +142,7 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
   const FileIds ids(packing);
   const std::vector<RangeColumn> columns =
       ranges != nullptr ? range_columns(*ranges) : std::vector<RangeColumn>{};
-  std::string text = "contact,a,b,x,y,nx,ny,gap,mu,R,T";
+  std::string text = std::string(kTableBegin) + "R,T";
   for (const RangeColumn& column : columns) {
     text += "," + column.name;
     if (column.end) text += "," + column.name + "_outcome";
@@ -156,5 +162,16 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
   }
   write_whole_file(path, text);
 }
+
+bool is_scene_table(std::string_view text) {
+  if (text.starts_with(kDisksBegin) || text.starts_with(kWallsBegin) || text.starts_with(kContactsBegin))
+    return true;
+  // One line, or two; whoever adds to them has a scene of their own.
+  if (!text.starts_with(kSceneBegin)) return false;
+  const std::string_view rest = text.substr(text.find('\n') + 1);
+  return rest.empty() || (rest.starts_with("force_unit = ") && rest.find('\n') + 1 == rest.size());
+}
+
+bool is_contact_table(std::string_view text) { return text.starts_with(kTableBegin); }
 
 }  // namespace indet

@@ -1,13 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
-#include <string>
+#include <string_view>
 
 #include "libindet/packing/packing.h"
 #include "libindet/range/force_ranges.h"
 
 namespace indet {
+
+/// The files of a scene.
+inline constexpr std::array<const char*, 4> kSceneFiles = {"disks.csv", "walls.csv", "contacts.csv",
+                                                           "scene.toml"};
 
 /// Writes disks.csv, walls.csv, contacts.csv and scene.toml, which read_csv_scene reads back to the same
 /// packing, into a folder that is made if needed. `forces` (2M, the scene's units) becomes R and T; NaN
@@ -20,5 +25,10 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
 /// T_max, their outcomes, and the measures. Unbounded values are inf; empty fields are unknown.
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
                          const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges);
+
+/// True if a text begins as one that write_csv_scene or write_contact_table writes. Tables that others wrote
+/// for import have other columns, or the same ones in another order.
+bool is_scene_table(std::string_view text);
+bool is_contact_table(std::string_view text);
 
 }  // namespace indet

@@ -40,9 +40,9 @@ using EnumNames = std::vector<std::string>;
 /// Errors become Hdf5ReadError and Hdf5WriteError with the file, the object and the message of the HDF5
 /// library, whose own error stack stays silent. One thread at a time.
 ///
-/// Writing: the file grows in memory; commit() writes it to a temporary name in the folder of the target,
-/// syncs and renames. A file that exists is therefore whole, and one that was not committed leaves nothing
-/// behind. Datasets above 64 KiB are chunked, shuffled, deflated and carry Fletcher-32 checksums.
+/// Writing: the file grows in memory, and commit() writes it as a WholeFile: one that exists is whole, and
+/// one that was not committed leaves nothing behind. Datasets above 64 KiB are chunked, shuffled, deflated
+/// and carry Fletcher-32 checksums.
 ///
 /// Reading: nothing in the file is trusted. Type, rank and shape are compared with what the caller expects
 /// and with the size of the file before memory is allocated; soft, external and virtual objects are refused.
@@ -76,7 +76,8 @@ class Hdf5File {
   void set_attribute(const std::string& object, const std::string& name, std::span<const double> values);
   void set_attribute(const std::string& object, const std::string& name,
                      std::span<const std::int64_t> values);
-  /// The file takes its name; this object can only be destroyed afterwards.
+  /// The file takes its name; this object can only be destroyed afterwards. Throws LibraryError if writing
+  /// fails (a full disk).
   void commit();
 
   // Reading.
@@ -104,9 +105,7 @@ class Hdf5File {
   /// The absolute paths of all datasets below an object (or the object itself), sorted.
   std::vector<std::string> datasets(const std::string& object) const;
 
-  /// SHA-256 (64 hexadecimal digits) over all numbers below `objects`: those of datasets, whatever their
-  /// storage, and those of attributes. docs/file-format.md defines it so that it can be recomputed with h5py.
-  /// Text does not enter.
+  /// SHA-256 (64 hexadecimal digits) over all numbers below `objects`, as docs/file-format.md defines it.
   std::string sha256(const std::vector<std::string>& objects) const;
 
  private:

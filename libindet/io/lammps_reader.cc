@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -12,68 +11,13 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/io/lammps_columns.h"
 #include "libindet/io/lammps_dump.h"
+#include "libindet/io/lammps_warnings.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {
-
-constexpr const char* kFormatHint = "write it with: dump_modify ID format float %.17g";
-
-/// Names of columns: the defaults of the documented script, and what the user put in their place.
-class ColumnNames {
- public:
-  explicit ColumnNames(const std::map<std::string, std::string>& mapped) {
-    for (const auto& [key, name] : mapped) {
-      if (key.starts_with("wall:") && key.size() > 5) {
-        walls_[key.substr(5)] = name;
-      } else if (const auto known = names_.find(key); known != names_.end()) {
-        known->second = name;
-      } else {
-        std::string keys;
-        for (const auto& [valid, unused] : names_) keys += valid + ", ";
-        throw InputError(fmt::format("--columns: {} is unknown; the known ones are {}wall:NAME", key, keys));
-      }
-    }
-  }
-
-  const std::string& operator[](const std::string& key) const { return names_.at(key); }
-
-  /// Name and column prefix of each wall: those that the user named, else every fix of which the dump has the
-  /// eighth column (the number of columns of a wall fix).
-  std::map<std::string, std::string> walls(const Table& atoms) const {
-    std::map<std::string, std::string> found = walls_;
-    if (found.empty()) {
-      for (const std::string& column : atoms.columns()) {
-        if (column.starts_with("f_") && column.ends_with("[8]") &&
-            !atoms.has(column.substr(0, column.size() - 2) + "9]")) {
-          const std::string prefix = column.substr(0, column.size() - 3);
-          found[prefix.substr(2)] = prefix;
-        }
-      }
-    }
-    for (const auto& [name, prefix] : found) {
-      for (int i = 1; i <= 8; ++i) atoms.require({fmt::format("{}[{}]", prefix, i)});
-    }
-    return found;
-  }
-
- private:
-  std::map<std::string, std::string> names_ = {
-      {"id", "id"},      {"x", "x"},        {"y", "y"},           {"radius", "radius"}, {"mass", "mass"},
-      {"vx", "vx"},      {"vy", "vy"},      {"omegaz", "omegaz"}, {"atom1", "c_pp[1]"}, {"atom2", "c_pp[2]"},
-      {"fx", "c_pl[3]"}, {"fy", "c_pl[4]"}, {"p1", "c_pl[5]"},    {"p2", "c_pl[6]"}};
-  std::map<std::string, std::string> walls_;
-};
-
-/// Number of significant digits of a printed number.
-int significant_digits(std::string_view text) {
-  int digits = 0;
-  for (const char c : text.substr(0, text.find_first_of("eE"))) {
-    if (c >= '0' && c <= '9' && (digits > 0 || c != '0')) ++digits;
-  }
-  return digits;
-}
 
 /// The contact of a row, before it is put into order.
 struct FoundContact {
@@ -108,10 +52,7 @@ class Reader {
     read_walls();
     sort_contacts();
     find_defects();
-    warn_of_rounding();
-    warn_of_atoms_outside();
-    warn_of_contacts_without_force();
-    warn_of_large_gaps(imported_);
+    warn_of_oddities(imported_, options_, names_, atoms_, remainder_);
     return std::move(imported_);
   }
 
@@ -163,7 +104,7 @@ class Reader {
   /// Keeps a contact unless its bodies neither touch nor push each other.
   void keep(const Contact& contact, const Table& table, int row) {
     if (contact.gap > 0 && contact.R == 0 && contact.T == 0) {
-      ++apart_;
+      ++remainder_.apart;
     } else {
       contacts_.push_back({contact, &table, row});
     }
@@ -188,8 +129,8 @@ class Reader {
       const Vector2 tangential_force{table.number(row, names_["p1"]), table.number(row, names_["p2"])};
       contact.R = normal_force.dot(contact.normal);
       contact.T = tangential_force.dot(contact.tangent());
-      discarded_ = std::max({discarded_, std::abs(normal_force.dot(contact.tangent())),
-                             std::abs(tangential_force.dot(contact.normal))});
+      remainder_.discarded = std::max({remainder_.discarded, std::abs(normal_force.dot(contact.tangent())),
+                                       std::abs(tangential_force.dot(contact.normal))});
       const double reach = packing_[a].radius + packing_[b].radius;
       if (contact.gap > 0.1 * reach && (contact.R != 0 || contact.T != 0)) {
         table.fail(row,
@@ -296,69 +237,8 @@ class Reader {
     throw InputError(fmt::format("{}: {}", options_.atoms.string(), defect->reason));
   }
 
-  void warn(std::string text) { imported_.warnings.push_back(std::move(text)); }
-
-  void warn_of_rounding() {
-    int digits = 0;
-    for (int row = 0; row < atoms_.table.rows(); ++row) {
-      digits = std::max({digits, significant_digits(atoms_.table.text(row, names_["x"])),
-                         significant_digits(atoms_.table.text(row, names_["y"]))});
-    }
-    // Fewer than four digits are no format but a scene made by hand.
-    if (digits >= 4 && digits <= 12) {
-      imported_.rounding = 0.5 * std::pow(10.0, 1 - digits);
-      warn(fmt::format("{}: numbers have only {} digits, which limits the balance of forces; {}",
-                       options_.atoms.string(), digits, kFormatHint));
-    }
-    const double unit = packing_.force_unit();
-    double largest = unit;
-    for (const Contact& contact : packing_.contacts) largest = std::max(largest, std::abs(contact.R));
-    if (discarded_ > std::max(tolerance::kDiscardedForce * unit, 1e3 * imported_.rounding * largest)) {
-      warn(
-          fmt::format("{}: the normal force ({}, {}) has tangential parts or the tangential force ({}, {}) "
-                      "normal ones, up to {:.3g} mg, which are ignored; are the columns the right ones?",
-                      options_.contacts.string(), names_["fx"], names_["fy"], names_["p1"], names_["p2"],
-                      discarded_ / unit));
-    }
-  }
-
-  void warn_of_atoms_outside() {
-    std::set<int> outside;
-    for (int i = 0; i < packing_.disk_count(); ++i) {
-      const Vector2& position = packing_[DiskId(i)].position;
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const double x = position[static_cast<Eigen::Index>(axis)];
-        if (atoms_.low[axis] < atoms_.high[axis] && (x < atoms_.low[axis] || x > atoms_.high[axis])) {
-          outside.insert(i);
-        }
-      }
-      for (const Wall& wall : packing_.walls) {
-        if ((position - wall.point).dot(wall.normal) < 0) outside.insert(i);
-      }
-    }
-    if (outside.empty()) return;
-    warn(fmt::format("{}: {} atoms are outside the box or behind a wall, the first is atom {}",
-                     options_.atoms.string(), outside.size(), packing_[DiskId(*outside.begin())].id));
-  }
-
-  void warn_of_contacts_without_force() {
-    if (imported_.duplicates > 0) {
-      warn(fmt::format("{}: {} contacts are given twice with the same force; each was taken once",
-                       options_.contacts.string(), imported_.duplicates));
-    }
-    if (apart_ > 0) {
-      warn(
-          fmt::format("{} pairs neither touch nor transmit a force; they were left out (cutoff radius in "
-                      "the computes does the same)",
-                      apart_));
-    }
-    const auto idle = std::count_if(packing_.contacts.begin(), packing_.contacts.end(),
-                                    [](const Contact& c) { return c.R == 0 && c.T == 0; });
-    if (idle > 0) warn(fmt::format("{} contacts touch, but transmit nothing; they were kept", idle));
-  }
-
   const LammpsOptions& options_;
-  ColumnNames names_;
+  LammpsColumns names_;
   DumpFrame atoms_;
   DumpFrame pairs_;
   ImportedPacking imported_;
@@ -366,8 +246,7 @@ class Reader {
   std::unordered_map<std::int32_t, int> disk_of_id_;
   std::vector<int> disk_rows_;  ///< Row of each disk in the atoms.
   std::vector<FoundContact> contacts_;
-  double discarded_ = 0;  ///< Largest part of a force that the projections drop.
-  int apart_ = 0;
+  LammpsRemainder remainder_;
 };
 
 }  // namespace

@@ -1,26 +1,16 @@
 #include "libindet/io/packing_file.h"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cstdlib>
 #include <limits>
-#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "libindet/base/error.h"
-#include "libindet/base/version.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {
 
-constexpr std::int64_t kSchemaMajor = 1;
-constexpr std::int64_t kSchemaMinor = 0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One number of each item.
@@ -204,38 +194,7 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
   return contacts;
 }
 
-std::string user_name() {
-  const char* user = std::getenv("USER");
-  return user != nullptr && *user != '\0' ? user : "unknown";
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
-/// Everything outside /provenance.
-std::string content_digest(const Hdf5File& file) {
-  std::vector<std::string> objects = file.top_objects();
-  std::erase(objects, "/provenance");
-  return file.sha256(objects);
-}
-
 }  // namespace
-
-void write_header(Hdf5File& file) {
-  file.set_attribute("/", "Conventions", "H5MD-1.1 indet-1");
-  const std::array<std::int64_t, 2> schema = {kSchemaMajor, kSchemaMinor};
-  file.set_attribute("/", "schema_version", std::span<const std::int64_t>(schema));
-  const std::array<std::int64_t, 2> h5md = {1, 1};
-  file.make_group("/h5md");
-  file.set_attribute("/h5md", "version", std::span<const std::int64_t>(h5md));
-  file.make_group("/h5md/author");
-  file.set_attribute("/h5md/author", "name", user_name());
-  file.make_group("/h5md/creator");
-  file.set_attribute("/h5md/creator", "name", "indet");
-  file.set_attribute("/h5md/creator", "version", version());
-}
 
 void write_packing_part(Hdf5File& file, const Packing& packing) {
   write_parameters(file, packing);
@@ -244,7 +203,7 @@ void write_packing_part(Hdf5File& file, const Packing& packing) {
   write_contacts(file, packing.contacts);
 }
 
-Packing read_packing_part(const Hdf5File& file) {
+Packing read_packing(const Hdf5File& file) {
   Packing packing;
   packing.origin.protocol = file.string_attribute("/parameters", "protocol");
   packing.origin.seed = file.integer_attribute("/parameters", "seed");
@@ -263,37 +222,6 @@ Packing read_packing_part(const Hdf5File& file) {
   return packing;
 }
 
-void write_provenance_part(Hdf5File& file, const Provenance& provenance) {
-  file.make_group("/provenance");
-  const auto set = [&](const std::string& name, const std::string& value) {
-    file.set_attribute("/provenance", name, value);
-  };
-  set("version", version());
-  set("git", git_revision());
-  set("compiler", compiler());
-  set("host", host_name());
-  set("created",
-      fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                  fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))));
-  file.set_attribute("/provenance", "argv", provenance.arguments);
-  set("config", provenance.config);
-  file.make_group("/provenance/libraries");
-  std::map<std::string, std::string> libraries = provenance.libraries;
-  libraries["HDF5"] = hdf5_version();
-  libraries["Eigen"] = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
-  for (const auto& [name, number] : libraries) file.set_attribute("/provenance/libraries", name, number);
-  file.make_group("/provenance/timings");
-  for (const auto& [stage, seconds] : provenance.seconds) {
-    file.set_attribute("/provenance/timings", stage, seconds);
-  }
-}
-
-void seal(Hdf5File& file) {
-  file.set_attribute("/", "content_sha256", content_digest(file));
-  file.set_attribute("/", "complete", 1);
-  file.commit();
-}
-
 void write_packing(const std::filesystem::path& path, const Packing& packing, const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
   write_header(file);
@@ -302,34 +230,6 @@ void write_packing(const std::filesystem::path& path, const Packing& packing, co
   seal(file);
 }
 
-Hdf5File open_indet_file(const std::filesystem::path& path) {
-  Hdf5File file = Hdf5File::open(path);
-  const auto fail = [&](const std::string& reason) {
-    throw Hdf5ReadError(fmt::format("{}: {}", path.string(), reason));
-  };
-  if (!file.has_attribute("/", "schema_version")) fail("is an HDF5 file, but not one of indet");
-  const double major = file.doubles_attribute("/", "schema_version", 2)[0];
-  if (major != static_cast<double>(kSchemaMajor)) {
-    fail(fmt::format("has version {} of the format; this program reads version {}", major, kSchemaMajor));
-  }
-  if (!file.has_attribute("/", "complete") || file.integer_attribute("/", "complete") != 1) {
-    fail("was not written to its end");
-  }
-  return file;
-}
-
-Packing read_packing(const std::filesystem::path& path) { return read_packing_part(open_indet_file(path)); }
-
-Digests compute_digests(const std::filesystem::path& path) {
-  const Hdf5File file = open_indet_file(path);
-  Digests digests;
-  digests.content = content_digest(file);
-  digests.stored_content = file.string_attribute("/", "content_sha256");
-  if (file.has("/ranges")) {
-    digests.ranges = file.sha256({"/extremal", "/ranges"});
-    digests.stored_ranges = file.string_attribute("/ranges", "sha256");
-  }
-  return digests;
-}
+Packing read_packing(const std::filesystem::path& path) { return read_packing(open_indet_file(path)); }
 
 }  // namespace indet

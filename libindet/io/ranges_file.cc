@@ -259,11 +259,10 @@ void write_ranges(const std::filesystem::path& path, const Packing& packing, con
   seal(file);
 }
 
-ForceRanges read_ranges(const std::filesystem::path& path) {
-  const Hdf5File file = open_indet_file(path);
+ForceRanges read_ranges(const Hdf5File& file) {
   if (!file.has("/ranges")) {
     throw Hdf5ReadError(
-        fmt::format("{}: has no force ranges; compute them with indet analyze", path.string()));
+        fmt::format("{}: has no force ranges; compute them with indet analyze", file.path().string()));
   }
   ForceRanges ranges;
   ranges.value.resize(static_cast<Eigen::Index>(file.shape("/contacts/body_a", 1)[0]), 4);
@@ -276,6 +275,8 @@ ForceRanges read_ranges(const std::filesystem::path& path) {
   return ranges;
 }
 
-bool file_has_ranges(const std::filesystem::path& path) { return open_indet_file(path).has("/ranges"); }
+ForceRanges read_ranges(const std::filesystem::path& path) { return read_ranges(open_indet_file(path)); }
+
+bool has_ranges(const Hdf5File& file) { return file.has("/ranges"); }
 
 }  // namespace indet

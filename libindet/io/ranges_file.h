@@ -15,6 +15,7 @@ void write_ranges(const std::filesystem::path& path, const Packing& packing, con
 
 /// Reads the force ranges of a file. Throws InputError if it has none, or if a table has not the size of the
 /// packing or points to a state that is not there.
+ForceRanges read_ranges(const Hdf5File& file);
 ForceRanges read_ranges(const std::filesystem::path& path);
 
 /// The parts of such a file, for the writers of files that hold more: /equilibrium, /ranges and /extremal;
@@ -22,7 +23,6 @@ ForceRanges read_ranges(const std::filesystem::path& path);
 void write_ranges_part(Hdf5File& file, const ForceRanges& ranges);
 void write_work_part(Hdf5File& file, const ForceRanges& ranges);
 
-/// True if the file, which must be one of indet, holds force ranges.
-bool file_has_ranges(const std::filesystem::path& path);
+bool has_ranges(const Hdf5File& file);
 
 }  // namespace indet

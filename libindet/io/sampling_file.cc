@@ -62,9 +62,8 @@ void write_sampling(const std::filesystem::path& path, const Packing& packing, c
   seal(file);
 }
 
-SamplingRecord read_sampling(const std::filesystem::path& path) {
-  const Hdf5File file = open_indet_file(path);
-  if (!file.has("/sampling")) throw InputError(fmt::format("{} has no samples", path.string()));
+SamplingRecord read_sampling(const Hdf5File& file) {
+  if (!file.has("/sampling")) throw InputError(fmt::format("{} has no samples", file.path().string()));
   SamplingRecord record;
   record.method = file.string_attribute("/sampling", "method");
   record.numbers = file.number_attributes("/sampling");

@@ -39,6 +39,6 @@ void write_sampling_part(Hdf5File& file, const SamplingRecord& record,
                          const std::string& group = "/sampling");
 
 /// Throws InputError if the file has no /sampling.
-SamplingRecord read_sampling(const std::filesystem::path& path);
+SamplingRecord read_sampling(const Hdf5File& file);
 
 }  // namespace indet

@@ -149,14 +149,9 @@ void write_simulation(const std::filesystem::path& path, const Packing& packing,
   seal(file);
 }
 
-bool file_has_trajectory(const std::filesystem::path& path) {
-  return open_indet_file(path).has("/trajectory");
-}
-
-Trajectory read_trajectory(const std::filesystem::path& path) {
-  const Hdf5File file = open_indet_file(path);
+Trajectory read_trajectory(const Hdf5File& file) {
   if (!file.has("/trajectory")) {
-    throw InputError(fmt::format("{} has no trajectory; simulate with --every", path.string()));
+    throw InputError(fmt::format("{} has no trajectory; simulate with --every", file.path().string()));
   }
   return read_trajectory_part(file);
 }
@@ -178,13 +173,12 @@ void write_checkpoint(const std::filesystem::path& path, const StoredCheckpoint&
   seal(file);
 }
 
-StoredCheckpoint read_checkpoint(const std::filesystem::path& path) {
-  const Hdf5File file = open_indet_file(path);
+StoredCheckpoint read_checkpoint(const Hdf5File& file) {
   const std::string group = "/checkpoint";
-  if (!file.has(group)) throw InputError(fmt::format("{} is not a checkpoint", path.string()));
+  if (!file.has(group)) throw InputError(fmt::format("{} is not a checkpoint", file.path().string()));
   StoredCheckpoint checkpoint;
   checkpoint.fingerprint = file.string_attribute(group, "fingerprint");
-  checkpoint.state = read_packing_part(file);
+  checkpoint.state = read_packing(file);
   const std::size_t m = checkpoint.state.contacts.size();
   checkpoint.spring = file.read_doubles(group + "/spring", {m});
   checkpoint.change = file.read_doubles(group + "/change", {m});

@@ -41,9 +41,8 @@ void write_simulation(const std::filesystem::path& path, const Packing& packing,
 /// /simulation alone, for the writers of files that hold more.
 void write_simulation_part(Hdf5File& file, const SimulationRecord& record);
 
-bool file_has_trajectory(const std::filesystem::path& path);
 /// Throws InputError if the file has none.
-Trajectory read_trajectory(const std::filesystem::path& path);
+Trajectory read_trajectory(const Hdf5File& file);
 
 /// A run that can be continued: its state as a packing (with velocities), and for each contact what is not in
 /// one.
@@ -58,6 +57,7 @@ struct StoredCheckpoint {
 
 void write_checkpoint(const std::filesystem::path& path, const StoredCheckpoint& checkpoint,
                       const Provenance& provenance);
-StoredCheckpoint read_checkpoint(const std::filesystem::path& path);
+/// Throws InputError if the file is no checkpoint.
+StoredCheckpoint read_checkpoint(const Hdf5File& file);
 
 }  // namespace indet

@@ -140,7 +140,7 @@ class Disks(ProgramTest):
 
     def test_a_full_disk_leaves_the_file_that_was_there(self):
         packing = self.packing(groove())
-        done = self.mounted("-o size=16k", f"echo old > small/r.h5; '{program.INDET}' analyze {packing} -o small/r.h5; "
+        done = self.mounted("-o size=16k", f"echo old > small/r.h5; '{program.INDET}' analyze {packing} -o small/r.h5 --overwrite; "
                                            "echo status $?; cat small/r.h5; ls -A small")
         self.assertEqual(done.stdout, "status 1\nold\nr.h5\n", done.stderr)
 

@@ -95,7 +95,7 @@ TEST(PackingPicture, TheExtensionChoosesTheFormat) {
               ThrowsMessage<InputError>(HasSubstr("written as .svg, .pdf or .png")));
   EXPECT_FALSE(std::filesystem::exists(folder / "p.gif"));
   EXPECT_THAT([&] { draw_forces(folder / "no" / "p.svg", packing, packing.simulated_forces().value(), "c"); },
-              ThrowsMessage<InputError>(HasSubstr("cannot be written")));
+              ThrowsMessage<InputError>(HasSubstr("does not exist")));
 }
 
 TEST(PackingPicture, AnEmptySceneCanBeDrawn) {

@@ -67,13 +67,12 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   remove_leftovers(path);
 }
 
-EnsembleContents read_ensemble(const std::filesystem::path& path) {
-  const Hdf5File file = open_indet_file(path);
-  if (!file.has("/table/runs")) throw InputError(fmt::format("{} is not an ensemble", path.string()));
+EnsembleContents read_ensemble(const Hdf5File& file) {
+  if (!file.has("/table/runs")) throw InputError(fmt::format("{} is not an ensemble", file.path().string()));
   if (!file.has("/table/runs/member")) {
     throw InputError(fmt::format(
         "{} was written by an earlier indet; the indet ensemble command that made it writes it anew",
-        path.string()));
+        file.path().string()));
   }
   EnsembleContents contents;
   contents.config = file.string_attribute("/ensemble", "config");
@@ -90,7 +89,5 @@ EnsembleContents read_ensemble(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < failures; ++i) contents.failures.push_back({members[i], reasons[i]});
   return contents;
 }
-
-bool file_is_ensemble(const std::filesystem::path& path) { return open_indet_file(path).has("/table/runs"); }
 
 }  // namespace indet

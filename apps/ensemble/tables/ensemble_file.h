@@ -23,8 +23,6 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
                     const std::vector<Figure>& figures, const Provenance& provenance);
 
 /// Throws InputError.
-EnsembleContents read_ensemble(const std::filesystem::path& path);
-
-bool file_is_ensemble(const std::filesystem::path& path);
+EnsembleContents read_ensemble(const Hdf5File& file);
 
 }  // namespace indet

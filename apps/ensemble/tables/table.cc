@@ -156,7 +156,7 @@ class Collector {
   void add(const Member& member, const std::filesystem::path& path) {
     const Hdf5File file = open_indet_file(path);
     MemberFile content;
-    content.packing = read_packing_part(file);
+    content.packing = read_packing(file);
     const double mg = content.packing.force_unit();
     for (const Contact& c : content.packing.contacts) content.forces[bodies(c)] = {c.R / mg, c.T / mg};
     const std::size_t run = tables_.runs.rows();

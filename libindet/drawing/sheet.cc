@@ -1,0 +1,115 @@
+#include "libindet/drawing/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libindet/base/tolerances.h"
+#include "libindet/drawing/palette.h"
+
+namespace indet {
+namespace {
+
+constexpr double kWidest = 360;
+constexpr double kHighest = 500;
+constexpr double kNarrowest = 230;  // room for legend and caption
+
+/// The part of a convex polygon within a half-plane.
+std::vector<Vector2> clip(const std::vector<Vector2>& polygon, const Wall& wall) {
+  std::vector<Vector2> inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2& from = polygon[i];
+    const Vector2& to = polygon[(i + 1) % polygon.size()];
+    const double a = (from - wall.point).dot(wall.normal);
+    const double b = (to - wall.point).dot(wall.normal);
+    if (a >= 0) inside.push_back(from);
+    if ((a < 0) != (b < 0)) inside.emplace_back(from + (to - from) * (a / (a - b)));
+  }
+  return inside;
+}
+
+}  // namespace
+
+Sheet::Sheet(const std::filesystem::path& path, const Packing& packing, const std::string& caption,
+             const std::function<std::vector<LegendItem>(const Sheet&)>& legend, double bar_height)
+    : packing_(packing) {
+  measure();
+  caption_.emplace(caption, width_ - 2 * kMargin);
+  legend_.emplace(legend(*this), width_ - 2 * kMargin);
+  legend_top_ = kMargin + (high_.y() - low_.y()) * scale_ + kMargin;
+  caption_top_ = legend_top_ + (legend_->height() + bar_height);
+  canvas_.emplace(path, width_, caption_top_ + caption_->height() + kMargin);
+}
+
+Vector2 Sheet::place(const Vector2& point) const {
+  return {left_ + (point.x() - low_.x()) * scale_, kMargin + (high_.y() - point.y()) * scale_};
+}
+
+Vector2 Sheet::contact_point(const Contact& contact) const {
+  const Disk& disk = packing_[contact.a];
+  return place(disk.position - disk.radius * contact.normal);
+}
+
+void Sheet::draw_bodies() {
+  const std::vector<Vector2> view = {low_, {high_.x(), low_.y()}, high_, {low_.x(), high_.y()}};
+  std::vector<Vector2> domain = view;
+  for (const Wall& wall : packing_.walls) domain = clip(domain, wall);
+  for (Wall wall : packing_.walls) {
+    wall.normal = -wall.normal;
+    std::vector<Vector2> behind = clip(view, wall);
+    for (Vector2& corner : behind) corner = place(corner);
+    canvas_->polygon(behind, palette::kWallFill);
+  }
+  for (const Disk& disk : packing_.disks) {
+    canvas_->disk(place(disk.position), disk.radius * scale_, palette::kDiskFill, palette::kDiskOutline,
+                  std::min(0.5, 0.1 * disk.radius * scale_));
+  }
+  draw_wall_lines(domain);
+}
+
+void Sheet::finish() {
+  legend_->draw(*canvas_, {kMargin, legend_top_});
+  caption_->draw(*canvas_, {kMargin, caption_top_});
+  canvas_->finish();
+}
+
+/// The part of the scene that is shown, and its scale.
+void Sheet::measure() {
+  if (packing_.disks.empty()) {
+    low_ = {-1, -1};
+    high_ = {1, 1};
+  } else {
+    low_ = high_ = packing_.disks.front().position;
+  }
+  double sum = 0;
+  for (const Disk& disk : packing_.disks) {
+    low_ = low_.cwiseMin((disk.position.array() - disk.radius).matrix());
+    high_ = high_.cwiseMax((disk.position.array() + disk.radius).matrix());
+    sum += disk.radius / static_cast<double>(packing_.disks.size());
+  }
+  mean_radius_ = packing_.disks.empty() ? 1 : sum;
+  const Vector2 border = Vector2::Constant(0.4 * mean_radius_);
+  low_ -= border;
+  high_ += border;
+  const Vector2 size = high_ - low_;
+  scale_ = std::min(kWidest / size.x(), kHighest / size.y());
+  // A handful of disks needs no whole page.
+  scale_ = std::min(scale_, 60 / mean_radius_);
+  width_ = std::max(size.x() * scale_, kNarrowest) + 2 * kMargin;
+  left_ = 0.5 * (width_ - size.x() * scale_);
+}
+
+/// The edges of the domain that walls make.
+void Sheet::draw_wall_lines(const std::vector<Vector2>& domain) {
+  const double close = tolerance::kSamePoint * (high_ - low_).norm();
+  for (std::size_t i = 0; i < domain.size(); ++i) {
+    const Vector2& from = domain[i];
+    const Vector2& to = domain[(i + 1) % domain.size()];
+    const bool wall = std::any_of(packing_.walls.begin(), packing_.walls.end(), [&](const Wall& w) {
+      return std::abs((from - w.point).dot(w.normal)) < close &&
+             std::abs((to - w.point).dot(w.normal)) < close;
+    });
+    if (wall && (to - from).norm() > close) canvas_->line(place(from), place(to), 1, palette::kBlack);
+  }
+}
+
+}  // namespace indet

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libindet/drawing/canvas.h"
+#include "libindet/drawing/legend.h"
+#include "libindet/packing/packing.h"
+
+namespace indet {
+
+/// The page of a packing: where its things are, and what stands below them. From the top: the picture, the
+/// legend, room for a colour bar, the caption.
+class Sheet {
+ public:
+  /// Lengths on paper in points.
+  static constexpr double kMargin = 9;
+
+  /// `legend` is asked once the scale is known. `bar_height`: room to leave for a colour bar.
+  Sheet(const std::filesystem::path& path, const Packing& packing, const std::string& caption,
+        const std::function<std::vector<LegendItem>(const Sheet&)>& legend, double bar_height);
+
+  Canvas& canvas() { return *canvas_; }
+  double width() const { return width_; }
+  double legend_bottom(double bar_height) const { return caption_top_ - bar_height; }
+  /// Mean radius on the page.
+  double radius() const { return mean_radius_ * scale_; }
+
+  /// A point of the scene on the page.
+  Vector2 place(const Vector2& point) const;
+  /// A direction of the scene on the page.
+  static Vector2 direction(const Vector2& vector) { return {vector.x(), -vector.y()}; }
+
+  Vector2 centre(DiskId disk) const { return place(packing_[disk].position); }
+  /// The end of a contact's line at body b: its centre, or the contact point at a wall.
+  Vector2 end(const Contact& contact) const {
+    return contact.b.is_wall() ? contact_point(contact) : centre(contact.b.disk_id());
+  }
+  Vector2 contact_point(const Contact& contact) const;
+
+  void draw_bodies();
+  /// Draws legend and caption, and writes the file.
+  void finish();
+
+ private:
+  void measure();
+  void draw_wall_lines(const std::vector<Vector2>& domain);
+
+  const Packing& packing_;
+  Vector2 low_{0, 0}, high_{0, 0};
+  double scale_ = 1, mean_radius_ = 1, width_ = 0, left_ = 0, legend_top_ = 0, caption_top_ = 0;
+  std::optional<Legend> legend_;
+  std::optional<Caption> caption_;
+  std::optional<Canvas> canvas_;
+};
+
+}  // namespace indet

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "libindet/io/hdf5_file.h"
+
+namespace indet {
+
+/// What all HDF5 files of indet have, whatever their kind (docs/file-format.md): a header, an account of the
+/// run that made them, and a digest of their numbers. A reader opens a file once and passes it on to the
+/// readers of its parts:
+///
+///     const Hdf5File file = open_indet_file(path);
+///     if (kind_of(file) == FileKind::kRanges) use(read_packing(file), read_ranges(file));
+
+/// What is written about the run that makes a file. Version, commit, compiler, host, time and the versions of
+/// HDF5 and Eigen are added to it.
+struct Provenance {
+  std::vector<std::string> arguments;            ///< argv
+  std::string config;                            ///< The resolved configuration of the run, TOML.
+  std::map<std::string, std::string> libraries;  ///< Version by name, of the libraries that took part.
+  std::map<std::string, double> seconds;         ///< By stage.
+};
+
+/// Opens a file and makes sure that indet wrote it, completely, in a version of the format that can be read.
+/// Throws InputError.
+Hdf5File open_indet_file(const std::filesystem::path& path);
+
+/// The SHA-256 of the numbers of a file: as stored in it, and recomputed from what is in it now.
+struct Digests {
+  std::string content;         ///< Of everything outside /provenance.
+  std::string stored_content;  ///< @content_sha256 of the root.
+  std::string ranges;          ///< Of /ranges and /extremal; empty if the file has no ranges.
+  std::string stored_ranges;   ///< @sha256 of /ranges; empty if the file has no ranges.
+
+  bool match() const { return content == stored_content && ranges == stored_ranges; }
+};
+Digests compute_digests(const Hdf5File& file);
+Digests compute_digests(const std::filesystem::path& path);
+
+// For the writers of such files.
+void write_header(Hdf5File& file);
+void write_provenance_part(Hdf5File& file, const Provenance& provenance);
+/// Stores the digest of the contents, marks the file complete and commits it.
+void seal(Hdf5File& file);
+
+}  // namespace indet
