@@ -78,7 +78,7 @@ int run(const std::string& path, const Context& context) {
   if (context.json) {
     std::cout << nlohmann::json{{"report", report}, {"packings", contents.tables.runs.rows()}}.dump(2)
               << '\n';
-  } else {
+  } else if (context.prints_report()) {
     fmt::print("written to {}\n", report);
   }
   return kDone;
@@ -88,8 +88,11 @@ int run(const std::string& path, const Context& context) {
 
 Command add_report(CLI::App& root) {
   const auto path = std::make_shared<std::string>();
-  CLI::App* command = root.add_subcommand("report", "Draw the figures and tables of an ensemble");
-  command->add_option("folder", *path, "Folder of an ensemble")->required()->check(CLI::ExistingDirectory);
+  CLI::App* command =
+      root.add_subcommand("report", "Make the figures and tables of an ensemble, as one HTML page");
+  command->add_option("folder", *path, "Folder of an ensemble, from indet ensemble or merge")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   return {command, [path](const Context& context) { return run(*path, context); }};
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/lammps_dump.h"
@@ -338,24 +339,27 @@ class Reader {
       }
     }
     if (outside.empty()) return;
-    warn(fmt::format("{}: {} atoms are outside the box or behind a wall, the first is atom {}",
-                     options_.atoms.string(), outside.size(), packing_[DiskId(*outside.begin())].id));
+    warn(fmt::format("{}: {} outside the box or behind a wall; the first is atom {}", options_.atoms.string(),
+                     counted(static_cast<std::int64_t>(outside.size()), "atom is", "atoms are"),
+                     packing_[DiskId(*outside.begin())].id));
   }
 
   void warn_of_contacts_without_force() {
     if (imported_.duplicates > 0) {
-      warn(fmt::format("{}: {} contacts are given twice with the same force; each was taken once",
-                       options_.contacts.string(), imported_.duplicates));
+      warn(fmt::format("{}: {} given twice with the same force, and taken once", options_.contacts.string(),
+                       counted(imported_.duplicates, "contact is", "contacts are")));
     }
     if (apart_ > 0) {
-      warn(
-          fmt::format("{} pairs neither touch nor transmit a force; they were left out (cutoff radius in "
-                      "the computes does the same)",
-                      apart_));
+      warn(fmt::format(
+          "{}: left out {}, which neither touch nor transmit a force (\"cutoff radius\" in the computes of "
+          "LAMMPS would do the same)",
+          options_.contacts.string(), counted(apart_, "pair of atoms", "pairs of atoms")));
     }
     const auto idle = std::count_if(packing_.contacts.begin(), packing_.contacts.end(),
                                     [](const Contact& c) { return c.R == 0 && c.T == 0; });
-    if (idle > 0) warn(fmt::format("{} contacts touch, but transmit nothing; they were kept", idle));
+    if (idle > 0)
+      warn(fmt::format("{}: kept {}, which transmit no force", options_.contacts.string(),
+                       counted(idle, "contact whose atoms touch", "contacts whose atoms touch")));
   }
 
   const LammpsOptions& options_;
