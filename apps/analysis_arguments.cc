@@ -23,7 +23,7 @@ std::optional<int> parse_number(const std::string& text) {
 
 [[noreturn]] void refuse_contacts(const std::string& text) {
   throw UsageError(fmt::format(
-      "--contacts: '{}' is neither all, nor sample:K, nor numbers and spans like 3,7,12-20", text));
+      "--contacts {}: expected all, sample:K (K contacts drawn at random), or a list like 3,7,12-20", text));
 }
 
 /// "3,7,12-20".
@@ -37,7 +37,8 @@ std::vector<int> parse_list(const std::string& text, int contacts) {
     if (!first || !last || *last < *first) refuse_contacts(text);
     if (*last >= contacts) {
       throw UsageError(
-          fmt::format("--contacts: there is no contact {}; the packing has {} (from 0)", *last, contacts));
+          fmt::format("--contacts {}: there is no contact {}; the packing has {}, numbered from 0", text,
+                      *last, counted(contacts, "contact")));
     }
     for (int contact = *first; contact <= *last; ++contact) list.push_back(contact);
   }
@@ -58,7 +59,7 @@ ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
     return choice;
   }
   if (arguments.seed != AnalysisArguments().seed)
-    throw UsageError("--seed draws the contacts of --contacts sample:K, which was not given");
+    throw UsageError("--seed has no effect without --contacts sample:K, whose contacts it draws");
   if (text == "all") return choice;
   choice.kind = ContactChoice::Kind::kList;
   choice.list = parse_list(text, contacts);
@@ -76,12 +77,13 @@ std::optional<Formulation> parse_formulation(const std::string& name) {
 
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Levels levels) {
   std::string help =
-      "standard: double precision, each value within rigorous bounds; fast: the same ranges in about half "
-      "of the time, but extremal states (and dR, dT) that depend on the solver";
+      "standard: double precision, each value between proven bounds; fast: the same values in about half of "
+      "the time, but the extremal states (and dR, dT, which depend on them) are those the solver happens to "
+      "find";
   std::vector<std::string> names = {"fast", "standard"};
   if (levels == Levels::kWithExact) {
     help +=
-        "; exact: each value proven in rational arithmetic and rounded once (about a minute for a hundred "
+        "; exact: each value computed in rational arithmetic and rounded once (about a minute for a hundred "
         "disks)";
     names.emplace_back("exact");
   }
@@ -91,24 +93,25 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
   command
       .add_option(
           "--contacts", arguments.contacts,
-          "The contacts whose ranges are found: all; sample:K, so many drawn at random, with a confidence "
-          "interval for the means of all; or a list like 3,7,12-20")
+          "Which contacts to find the ranges of: all; sample:K, that is K contacts drawn at random, which "
+          "gives a confidence interval for the mean over all; or a list like 3,7,12-20 (numbered from 0)")
       ->type_name("all|sample:K|LIST")
       ->capture_default_str();
-  command.add_option("--seed", arguments.seed, "Seed of --contacts sample:K")
+  command.add_option("--seed", arguments.seed, "Seed of the random numbers of --contacts sample:K")
       ->check(not_negative())
       ->capture_default_str();
   command
-      .add_option("--formulation", arguments.formulation,
-                  "How the linear programs are posed; the results are the same")
+      .add_option(
+          "--formulation", arguments.formulation,
+          "How the linear programs are written down (docs/theory.md, section 7); the results are the same")
       ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
       ->capture_default_str();
   command
       .add_option(
           "--extremal-states", arguments.states,
-          "Which state stands for an optimum that many states attain: the one of smallest total normal "
-          "force (canonical), or the vertex that the solver lands on (solver); auto: canonical, but solver "
-          "with --accuracy fast")
+          "Which state to store where many attain the same extremum. canonical: the one of smallest total "
+          "normal force; solver: the one the solver happens to find; auto: canonical, but solver with "
+          "--accuracy fast")
       ->check(CLI::IsMember({"auto", "canonical", "solver"}))
       ->capture_default_str();
 }

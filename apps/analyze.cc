@@ -16,9 +16,9 @@
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
 #include "apps/output_files.h"
+#include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
-#include "apps/trial_reading.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
@@ -56,11 +56,12 @@ Statistics statistics(const Eigen::VectorXd& values) {
   return result;
 }
 
-/// How firmly the values stand, in force units: the widest enclosure, and the largest first-order change of a
-/// value per radian by which normals turn. Values that are infinite, or were not found, are left out.
+/// How firmly the values stand, in force units. Values that are infinite, or were not found, are left out.
 struct Firmness {
-  double widest_enclosure = 0;
-  double sensitivity = 0;
+  int values = 0;
+  int half_open = 0;            ///< values with an enclosure that is infinite on one side or on both
+  double widest_enclosure = 0;  ///< of the others
+  double sensitivity = 0;       ///< largest first-order change of a value per radian by which normals turn
 };
 
 Firmness firmness(const ForceRanges& ranges) {
@@ -69,7 +70,11 @@ Firmness firmness(const ForceRanges& ranges) {
     for (int column = 0; column < 4; ++column) {
       if (!std::isfinite(ranges.value(i, column))) continue;
       const double width = (ranges.upper(i, column) - ranges.lower(i, column)) / ranges.force_unit;
-      result.widest_enclosure = std::max(result.widest_enclosure, width);
+      ++result.values;
+      if (std::isfinite(width))
+        result.widest_enclosure = std::max(result.widest_enclosure, width);
+      else
+        ++result.half_open;
       const double moved = ranges.sensitivity(i, column) / ranges.force_unit;
       result.sensitivity = std::fmax(result.sensitivity, moved);
     }
@@ -108,6 +113,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                {"unique", ranges.unique.cast<int>().sum()},
                {"states", ranges.states.rows()},
                {"widest_enclosure", json_number(firmness(ranges).widest_enclosure)},
+               {"infinite_enclosures", firmness(ranges).half_open},
                {"sensitivity", json_number(firmness(ranges).sensitivity)},
                {"mean_delta_R", json_number(delta_R.mean)},
                {"max_delta_R", json_number(delta_R.max)},
@@ -144,8 +150,9 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
 
 void print_motion(const Packing& packing, const ForceRanges& ranges) {
   fmt::print(
-      "The packing cannot stand: no contact forces balance the load within the friction cones.\n"
-      "Under this virtual motion the load does work and no contact resists (x, y, radius × rotation):\n");
+      "The packing cannot stand: no contact forces within the friction cones balance the load.\n"
+      "It can move as follows, with the load and against no contact (velocity x, y, and radius × "
+      "rotation):\n");
   const std::vector<MovingDisk> disks = moving_disks(ranges);
   constexpr std::size_t kShown = 10;
   for (std::size_t i = 0; i < std::min(kShown, disks.size()); ++i) {
@@ -174,20 +181,48 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
   }
 }
 
-/// What the means of all contacts are, as far as the sample tells.
+/// What the means over all contacts are, as far as the sample tells.
 void print_sample(const Packing& packing, const ForceRanges& ranges) {
-  fmt::print("\nall {} contacts, from {} of them drawn with seed {} ({:.0f} %)\n", packing.contact_count(),
-             ranges.requested, ranges.sample_seed, 100 * kConfidence);
+  fmt::print("\nestimate for all {}, from {} drawn at random (seed {}), with {:.0f} % confidence\n",
+             counted(packing.contact_count(), "contact"), ranges.requested, ranges.sample_seed,
+             100 * kConfidence);
   for (const auto& [name, e] : {std::pair("δR", ranges.sample_R), {"δT", ranges.sample_T}}) {
     if (std::isnan(e.low)) {
       const bool is_small = ranges.requested < kFewestForInterval;
       fmt::print(
-          "  {}   mean {:.4g} in the sample, no interval{}\n", name, e.mean,
-          is_small ? fmt::format(" (--contacts sample:{} or more tells one)", kFewestForInterval) : "");
+          "  {}   mean {:.4g} in the sample; no confidence interval{}\n", name, e.mean,
+          is_small ? fmt::format(" (--contacts sample:{} or more gives one)", kFewestForInterval) : "");
     } else {
-      fmt::print("  {}   mean {:>9.4g} … {:<9.4g} distribution ± {:.2g}\n", name, e.low, e.high, e.band);
+      fmt::print("  {}   mean between {:.4g} and {:.4g}; distribution function known to ± {:.2g}\n", name,
+                 e.low, e.high, e.band);
     }
   }
+}
+
+/// How many extrema were found, and how firmly they stand.
+void print_quality(const ForceRanges& ranges) {
+  fmt::print("{}: {} certified{}, {} imprecise, {} failed\n",
+             counted(ranges.objectives, "extremum", "extrema"), ranges.certified,
+             ranges.unbounded > 0 ? fmt::format(" ({} of them unbounded)", ranges.unbounded) : "",
+             ranges.imprecise, ranges.failed);
+  fmt::print("largest residuals: {:.1e} of balance and friction, {:.1e} of optimality\n",
+             ranges.worst_primal_residual, ranges.worst_dual_residual);
+  const Firmness firm = firmness(ranges);
+  const std::string open = firm.half_open > 0 ? fmt::format("; {} of {} values lack a finite bound on a side",
+                                                            firm.half_open, firm.values)
+                                              : "";
+  if (firm.half_open < firm.values)
+    fmt::print("proven bounds of a value: at most {:.1e} mg apart{}\n", firm.widest_enclosure, open);
+  else if (firm.values > 0)
+    fmt::print("proven bounds of a value: none that are finite on both sides\n");
+  constexpr double kTurn = 1e-8;
+  if (firm.values > 0)
+    fmt::print("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
+               kTurn * firm.sensitivity);
+  const int unique = ranges.unique.cast<int>().sum();
+  fmt::print("found by {}; {}; {} of {} {} attained by a single state\n", describe_method(ranges),
+             counted(ranges.states.rows(), "extremal state"), unique,
+             counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
 }
 
 void print_summary(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
@@ -196,40 +231,28 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
              ranges.unknowns, ranges.equations, ranges.rank, ranges.nullity);
   if (ranges.rank_ambiguous) {
     fmt::print(
-        "The rank is ambiguous (singular values {:.1e} accepted, {:.1e} rejected): every result is marked "
-        "imprecise.\n",
+        "The rank is ambiguous: rounding does not tell whether a singular value is zero (smallest that was "
+        "counted: {:.1e}, largest that was not: {:.1e}). Every result is marked imprecise.\n",
         ranges.smallest_accepted, ranges.largest_rejected);
   }
   if (ranges.doubtful && !ranges.rank_ambiguous) {
-    fmt::print("Rounding decides here what balances or stays limited: every result is marked imprecise.\n");
+    fmt::print(
+        "Whether forces balance, or stay bounded, depends here on the last digits of the packing's numbers. "
+        "Every result is marked imprecise.\n");
   }
   if (ranges.status == PolytopeStatus::kEmpty) {
     print_motion(packing, ranges);
     fmt::print("\nwritten to {}\n", output);
     return;
   }
-  fmt::print("polytope of contact states: {}, dimension {} (2M − 3N = {}), {} independent block{}\n",
-             to_string(ranges.status), ranges.dim, 2 * packing.contact_count() - 3 * packing.disk_count(),
-             ranges.blocks, ranges.blocks == 1 ? "" : "s");
-  if (ranges.sliding >= 0) {
-    fmt::print("simulated state: {} sliding contacts (a non-transmitting one counts twice; there are {})\n",
-               ranges.sliding, ranges.non_transmitting);
-  }
+  fmt::print("polytope of contact states: {}, dimension {} (2M − 3N = {}), {}\n", to_string(ranges.status),
+             ranges.dim, 2 * packing.contact_count() - 3 * packing.disk_count(),
+             counted(ranges.blocks, "independent block"));
+  if (ranges.sliding >= 0)
+    fmt::print("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
   if (ranges.choice != ContactChoice::Kind::kAll)
-    fmt::print("{} of {} contacts were asked for\n", ranges.requested, packing.contact_count());
-  fmt::print("{} objectives: {} certified, {} imprecise, {} failed", ranges.objectives, ranges.certified,
-             ranges.imprecise, ranges.failed);
-  if (ranges.unbounded > 0) fmt::print(", {} of the certified unbounded", ranges.unbounded);
-  fmt::print("\nworst residuals: {:.1e} primal, {:.1e} dual\n", ranges.worst_primal_residual,
-             ranges.worst_dual_residual);
-  constexpr double kTurn = 1e-8;
-  const Firmness firm = firmness(ranges);
-  fmt::print("widest enclosure: {:.1e} mg; normals turned by {:.0e} move no value by more than {:.1e} mg\n",
-             firm.widest_enclosure, kTurn, kTurn * firm.sensitivity);
-  fmt::print("{} {}, {} pivots ({}); {} extremal states, {} objectives have only one\n", ranges.solves,
-             ranges.method == Method::kLp ? "linear programs" : "solves", ranges.pivots,
-             ranges.method == Method::kLp ? ranges.formulation : to_string(ranges.method),
-             ranges.states.rows(), ranges.unique.cast<int>().sum());
+    fmt::print("asked for: {} of {}\n", ranges.requested, counted(packing.contact_count(), "contact"));
+  print_quality(ranges);
   if (ranges.method == Method::kPivotingPaper) print_paper_work(ranges.paper);
   const auto line = [](const char* name, const Eigen::VectorXd& values) {
     const Statistics s = statistics(values);
@@ -262,14 +285,15 @@ ForceRanges prove(const Packing& packing, const Context& context, const ForceRan
 }
 
 int run(const Options& options, const Context& context) {
-  const Packing packing = read_packing(open_on_trial(options.packing));
+  const Packing packing = read_packing(open_packing(options.packing));
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
   claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
   analysis.method = parse_method(options.method);
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
-    throw UsageError("--formulation is of linear programs; --method pivoting-tableau solves none");
+    throw UsageError(
+        "--formulation has no effect with --method pivoting-tableau, which solves no linear programs");
   ForceRanges ranges = analyze(packing, analysis);
   if (is_exact(options.arguments)) ranges = prove(packing, context, ranges);
 
@@ -280,7 +304,7 @@ int run(const Options& options, const Context& context) {
   write_ranges(output, packing, ranges, provenance);
   if (context.json) {
     std::cout << to_json(packing, ranges, output.string()).dump(2) << '\n';
-  } else {
+  } else if (context.prints_report()) {
     print_summary(packing, ranges, output.string());
   }
   if (ranges.status == PolytopeStatus::kEmpty) return ranges.doubtful ? kUncertain : kNoAdmissibleState;
@@ -290,21 +314,20 @@ int run(const Options& options, const Context& context) {
 }  // namespace
 
 Command add_analyze(CLI::App& root) {
-  CLI::App* command = root.add_subcommand("analyze", "Find the range of every contact force of a packing");
+  CLI::App* command = root.add_subcommand(
+      "analyze", "Find the smallest and largest value of every contact force of a packing");
   const auto options = std::make_shared<Options>();
-  command->add_option("packing", options->packing, "The packing, an indet HDF5 file")
+  command->add_option("packing", options->packing, "HDF5 file of a packing, from simulate or import")
       ->required()
       ->type_name("P.h5");
-  command
-      ->add_option("-o,--output", options->output,
-                   "The file to write (default: P.ranges.h5 beside the packing)")
+  command->add_option("-o,--output", options->output, "File to write (default: P.ranges.h5 beside P.h5)")
       ->type_name("R.h5");
   add_overwrite_option(*command, options->overwrite);
   command
       ->add_option(
           "--method", options->method,
-          "How the extrema are found: by linear programs, by the paper's walk over extremal points as "
-          "it is written there, or by the same walk on a tableau")
+          "How the extrema are found. lp: by linear programs; pivoting-paper: by the paper's walk from one "
+          "extremal point to the next, as published; pivoting-tableau: by the same walk, made fast")
       ->check(CLI::IsMember({"lp", "pivoting-paper", "pivoting-tableau"}))
       ->capture_default_str();
   add_analysis_options(*command, options->arguments, Levels::kWithExact);

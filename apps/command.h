@@ -1,12 +1,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "apps/wording.h"
 #include "libindet/base/progress.h"
 
 namespace indet::app {
@@ -27,19 +27,19 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// "1 disk", "2 disks".
-std::string counted(std::int64_t number, const std::string& noun);
-
 /// What every subcommand shares: the global options, the terminal, the configuration that was resolved.
 struct Context {
   int threads = 0;              ///< 0: as many as the machine has.
   bool json = false;            ///< Print one JSON document on stdout instead of text.
-  bool quiet = false;           ///< Neither progress nor notes on stderr.
+  bool quiet = false;           ///< No report on stdout; neither progress nor notes on stderr.
   std::string config_file;      ///< Of --config; empty if there is none.
   std::string resolved_config;  ///< TOML of every option of this run, as stored in the files that it writes.
   std::vector<std::string> arguments;  ///< argv.
 
   int thread_count() const;  ///< `threads`, or the number of cores.
+
+  /// Whether a subcommand prints its report as text: not with --json, nor with --quiet.
+  bool prints_report() const { return !json && !quiet; }
 
   /// Draws a progress bar on stderr (on a terminal, and not with --quiet) once a stage has lasted half a
   /// second, and asks the library to stop once a signal has arrived.

@@ -76,8 +76,8 @@ std::string bash_script(const CLI::App& root) {
 }  // namespace
 
 Command add_completion(CLI::App& root) {
-  CLI::App* command =
-      root.add_subcommand("completion", "Print a shell completion script: source <(indet completion bash)");
+  CLI::App* command = root.add_subcommand(
+      "completion", "Print a script that completes commands in a shell: source <(indet completion bash)");
   const auto shell = std::make_shared<std::string>();
   command->add_option("shell", *shell, "The shell to complete for")
       ->required()

@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "apps/suggestion.h"
 #include "libindet/base/error.h"
 
 namespace indet::app {
@@ -21,6 +22,14 @@ bool is_setting(const CLI::Option& option) {
   static const std::vector<std::string> excluded = {"help", "version", "config", "overwrite"};
   return !option.get_lnames().empty() &&
          std::find(excluded.begin(), excluded.end(), option.get_lnames().front()) == excluded.end();
+}
+
+std::vector<std::string> names_of_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (is_setting(*option)) names.push_back(option->get_lnames().front());
+  }
+  return names;
 }
 
 std::string text_of(const toml::node& node, const std::string& place) {
@@ -49,7 +58,8 @@ void add_settings(const toml::table& table, const CLI::App& command, const std::
     const std::string place = fmt::format("{}:{}: {}", file, node.source().begin.line, name);
     if (option == nullptr || !is_setting(*option)) {
       const std::string words = is_root ? command.get_name() : "indet " + command.get_name();
-      throw InputError(fmt::format("{} is not an option of '{}' (see {} --help)", place, words, words));
+      throw InputError(fmt::format("{}: {} has no such option{}; see {} --help", place, words,
+                                   suggestion(name, names_of_options(command)), words));
     }
     std::vector<std::string> values;
     if (const auto* array = node.as_array()) {
@@ -166,7 +176,11 @@ void parse_with_configuration(CLI::App& root, const std::vector<std::string>& ar
     const auto commands =
         root.get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
     if (commands.empty()) {
-      throw InputError(fmt::format("{}:{}: '{}' is not a subcommand", file, node.source().begin.line, name));
+      std::vector<std::string> names;
+      for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+      throw InputError(fmt::format("{}:{}: '{}' is not a subcommand{}", file, node.source().begin.line, name,
+                                   suggestion(name, names)));
     }
     add_settings(*node.as_table(), *commands.front(), file, commands.front()->parsed(), settings);
   }

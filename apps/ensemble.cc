@@ -18,6 +18,7 @@
 #include "apps/ensemble_output.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
+#include "apps/packing_input.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/lp/glpk_problem.h"
@@ -88,17 +89,18 @@ Range range_of(const std::string& text, int members) {
       throw std::invalid_argument(text);
     }
   } catch (const std::logic_error&) {
-    throw UsageError(fmt::format("--members {}: expected FIRST-LAST, two numbers of members", text));
+    throw UsageError(
+        fmt::format("--members {}: expected FIRST-LAST or one number, as --dry-run lists them", text));
   }
   if (range.first < 0 || range.first > range.last || range.last >= members)
-    throw UsageError(fmt::format("--members {}: there are members 0-{}", text, members - 1));
+    throw UsageError(fmt::format("--members {}: the members of this ensemble are 0-{}", text, members - 1));
   return range;
 }
 
 int list_members(const Plan& plan, const Range& range, const Context& context) {
   double total = 0;
   nlohmann::json json = nlohmann::json::array();
-  if (!context.json) fmt::print("{:>5}  {:<24} {:>12}\n", "member", "packing", "seconds");
+  if (context.prints_report()) fmt::print("{:>6}  {:<24} {:>12}\n", "member", "name", "seconds");
   for (const Member& member : plan.members) {
     if (member.number < range.first || member.number > range.last) continue;
     total += member.cost;
@@ -107,13 +109,13 @@ int list_members(const Plan& plan, const Range& range, const Context& context) {
                       {"name", member.name},
                       {"seconds", member.cost},
                       {"hash", member.hash}});
-    } else {
-      fmt::print("{:>5}  {:<24} {:>12.1f}\n", member.number, member.name, member.cost);
+    } else if (context.prints_report()) {
+      fmt::print("{:>6}  {:<24} {:>12.1f}\n", member.number, member.name, member.cost);
     }
   }
   if (context.json) {
     std::cout << nlohmann::json{{"members", json}, {"seconds", total}}.dump(2) << '\n';
-  } else {
+  } else if (context.prints_report()) {
     fmt::print("{}, about {:.0f} s on {}\n", counted(range.last - range.first + 1, "packing"),
                total / context.thread_count(), counted(context.thread_count(), "core"));
   }
@@ -126,7 +128,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   if (config.sampling.samples > 0) {
     if (const auto defect = config.sampling.defect()) throw InputError(*defect);
   }
-  for (const std::string& file : o.files) open_on_trial(file);
+  for (const std::string& file : o.files) open_packing(file);
   const Plan plan = make_plan(config);
   const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
   if (o.dry_run) return list_members(plan, range, context);
@@ -168,43 +170,54 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
 Command add_ensemble(CLI::App& root) {
   const auto o = std::make_shared<EnsembleCommand>();
   CLI::App* command = root.add_subcommand(
-      "ensemble", "Many packings: simulate, analyze and sample each, and collect the results");
-  command->add_option("files", o->files, "Packings that are there already (.h5)")->check(CLI::ExistingFile);
-  command->add_option("-o,--out", o->folder, "Folder to write; the same command goes on where it stopped")
+      "ensemble", "Simulate, analyze and sample many packings, and collect the results in one file");
+  command
+      ->add_option("files", o->files,
+                   "Packings that exist already (.h5), to be taken instead of simulated ones")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("-o,--out", o->folder,
+                   "Folder to write; if it was stopped, the same command goes on where it was")
       ->required();
-  CLI::Option* seeds = command->add_option("--seeds", o->config.seeds, "Number of seeds")
-                           ->check(CLI::PositiveNumber)
-                           ->capture_default_str();
-  command->add_option("--first-seed", o->config.first_seed, "The first of them")
+  CLI::Option* seeds =
+      command->add_option("--seeds", o->config.seeds, "Number of seeds; each gives one packing per protocol")
+          ->check(CLI::PositiveNumber)
+          ->capture_default_str();
+  command->add_option("--first-seed", o->config.first_seed, "The first seed; the others follow it")
       ->check(not_negative())
       ->capture_default_str();
-  command->add_option("--protocols", o->protocol_names, "Which of cd1,cd2,md1,md2 (default: all)")
+  command
+      ->add_option("--protocols", o->protocol_names,
+                   "Protocols, a list of cd1,cd2,md1,md2 (default: all; docs/simulation.md)")
       ->delimiter(',')
       ->check(CLI::IsMember(sim::simulated_names()));
-  command->add_option("--scene", o->scene_file, "TOML file of the scene")->check(CLI::ExistingFile);
+  command->add_option("--scene", o->scene_file, "TOML file of the scene (docs/simulation.md)")
+      ->check(CLI::ExistingFile);
   command->add_option("--disks", o->disks, "Number of disks (default: 95, or that of the scene)");
   command->add_option("--mu", o->mu, "Friction coefficient (default: 0.3, or that of the scene)");
-  command->add_option("--preset", o->preset, "md: stiff or paper damping")
+  command->add_option("--preset", o->preset, "md: the damping of stiff springs, or that of the paper")
       ->check(CLI::IsMember({"stiff", "paper"}))
       ->capture_default_str();
-  command->add_option("--samples", o->config.sampling.samples, "Solutions of perturb-and-resolve (0: none)")
+  command
+      ->add_option("--samples", o->config.sampling.samples,
+                   "Number of solutions of perturb-and-resolve per packing (0: none)")
       ->check(not_negative())
       ->capture_default_str();
   command
       ->add_option("--sample-distance", o->config.sampling.distance,
-                   "Solve until balanced forces are as close as this (mg)")
+                   "Solve until balanced forces are at most this far away (mg, norm over all contacts)")
       ->check(not_negative())
       ->capture_default_str();
   command
-      ->add_option(
-          "--uniform-seeds", o->uniform_seeds,
-          "Packings of the first so many seeds (and files) are sampled uniformly too; all, or 0: none")
+      ->add_option("--uniform-seeds", o->uniform_seeds,
+                   "Also sample the packings of this many seeds (and files) uniformly; all, or 0 for none")
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
-                    "Leave out dR and dT of the vertices that the solver lands on");
-  command->add_option("--members", o->members, "Only members FIRST-LAST, to be joined by indet merge");
+                    "Leave out dR and dT of the extremal states that the solver happens to find");
+  command->add_option("--members", o->members,
+                      "Compute only the packings numbered FIRST-LAST (indet merge joins the parts)");
   add_overwrite_option(*command, o->overwrite);
-  command->add_flag("--dry-run", o->dry_run, "List the members with their estimated cost");
+  command->add_flag("--dry-run", o->dry_run, "Only list the packings, their numbers and estimated times");
   return {command, [o, seeds](const Context& context) { return run(*o, seeds->count() > 0, context); }};
 }
 

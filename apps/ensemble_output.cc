@@ -51,7 +51,7 @@ int report_part(const std::filesystem::path& folder, int first, int last, const 
                                 {"seconds", seconds}}
                      .dump(2)
               << '\n';
-  } else {
+  } else if (context.prints_report()) {
     fmt::print("members {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last,
                outcomes.done, outcomes.skipped, outcomes.failures.size(), seconds);
     fmt::print("join the parts with indet merge\n");
@@ -90,13 +90,16 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
                                 {"seconds", seconds()}}
                      .dump(2)
               << '\n';
-  } else {
+  } else if (context.prints_report()) {
     fmt::print("{}: {} computed, {} there already, {} failed\n",
                counted(static_cast<std::int64_t>(plan.members.size()), "packing"), outcomes.done,
                outcomes.skipped, outcomes.failures.size());
-    fmt::print("{} contacts, {} objectives: {} certified, {} unbounded, {} imprecise, {} not found\n",
-               contents.tables.contacts.rows(), runs.sum("objectives"), runs.sum("certified"),
-               runs.sum("unbounded"), runs.sum("imprecise"), runs.sum("failed"));
+    const double unbounded = runs.sum("unbounded");
+    fmt::print("{}, {} extrema: {} certified{}, {} imprecise, {} failed\n",
+               counted(static_cast<std::int64_t>(contents.tables.contacts.rows()), "contact"),
+               runs.sum("objectives"), runs.sum("certified"),
+               unbounded > 0 ? fmt::format(" ({} of them unbounded)", unbounded) : "", runs.sum("imprecise"),
+               runs.sum("failed"));
     for (const std::string& name : contents.missing) fmt::print("missing: {}\n", name);
     fmt::print("written to {} ({:.1f} s)\n", path.string(), seconds());
   }

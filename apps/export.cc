@@ -11,7 +11,7 @@
 
 #include "apps/command.h"
 #include "apps/output_files.h"
-#include "apps/trial_reading.h"
+#include "apps/packing_input.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
 #include "libindet/io/csv_writer.h"
@@ -39,7 +39,8 @@ struct ChosenState {
 const ForceRanges& need_ranges(const std::optional<ForceRanges>& ranges, const std::string& file,
                                const std::string& what) {
   if (ranges) return *ranges;
-  throw InputError(fmt::format("{}: {} needs force ranges; compute them with indet analyze", file, what));
+  throw InputError(
+      fmt::format("{0}: {1} needs force ranges; compute them first: indet analyze {0}", file, what));
 }
 
 /// What --state says: its kind ("sim", "max-norm", "state", "R_min", …) and the number after the colon.
@@ -70,8 +71,8 @@ ChosenState choose_state(const ExportOptions& options, const Packing& packing,
   const ForceRanges& r = need_ranges(ranges, options.file, "--state " + options.state);
   const auto row = [&](std::int64_t k, const std::string& description) -> ChosenState {
     if (k < 0 || k >= r.states.rows()) {
-      throw InputError(fmt::format("{}: there is no extremal state for --state {} ({} are stored)",
-                                   options.file, options.state, r.states.rows()));
+      throw InputError(fmt::format("{}: there is no extremal state for --state {}; the file has {}",
+                                   options.file, options.state, counted(r.states.rows(), "extremal state")));
     }
     return {r.states.row(k).transpose(), description};
   };
@@ -118,7 +119,7 @@ void claim_outputs(const std::filesystem::path& output, const std::string& forma
 }
 
 int run(ExportOptions options, const Context& context) {
-  const Hdf5File file = open_on_trial(options.file);
+  const Hdf5File file = open_packing(options.file);
   const Packing packing = read_packing(file);
   std::optional<ForceRanges> ranges;
   if (has_ranges(file)) ranges = read_ranges(file);
@@ -130,7 +131,8 @@ int run(ExportOptions options, const Context& context) {
   const std::filesystem::path output = options.output;
   claim_outputs(output, format, replacement_rule({options.file}, options.overwrite, context));
   if (format == "csv") {
-    if (options.style != "forces") throw InputError("--style is for pictures; a table has all columns");
+    if (options.style != "forces")
+      throw InputError("--style has no effect on CSV, which has all numbers; it is for pictures");
     if (output.extension() == ".csv") {
       write_contact_table(output, packing, state.forces, ranges ? &*ranges : nullptr);
     } else {
@@ -149,7 +151,7 @@ int run(ExportOptions options, const Context& context) {
     std::cout << nlohmann::json{{"output", options.output}, {"format", format}, {"state", state.description}}
                      .dump(2)
               << '\n';
-  } else {
+  } else if (context.prints_report()) {
     fmt::print("written to {}\n", options.output);
   }
   return kDone;
@@ -159,11 +161,13 @@ int run(ExportOptions options, const Context& context) {
 
 Command add_export(CLI::App& root) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = root.add_subcommand("export", "Draw a packing, or write it as tables");
-  command->add_option("file", options->file, "HDF5 file")->required();
+  CLI::App* command = root.add_subcommand("export", "Draw a packing, or write it as CSV tables");
+  command->add_option("file", options->file, "HDF5 file of a packing, with or without force ranges")
+      ->required()
+      ->type_name("FILE.h5");
   command
       ->add_option("--format", options->format,
-                   "Form of the output (default: by the extension of -o, else svg)")
+                   "Format of the output (default: by the extension of -o, else svg)")
       ->check(CLI::IsMember({"csv", "svg", "pdf", "png"}));
   const auto check_state = [](const std::string& text) -> std::string {
     if (parse_state(text)) return "";
@@ -172,16 +176,23 @@ Command add_export(CLI::App& root) {
   command
       ->add_option(
           "--state", options->state,
-          "Contact state: sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C")
+          "Which contact forces to show. sim: as simulated; max-norm: the extremal state of largest norm; "
+          "state:K: extremal state K of the file; R_min:C, R_max:C, T_min:C, T_max:C: the state in which "
+          "that force of contact C is extremal")
       ->check(CLI::Validator(check_state, "STATE"))
       ->capture_default_str();
-  command->add_option("--style", options->style, "Picture: forces of the state, or delta-R by colour")
+  command
+      ->add_option(
+          "--style", options->style,
+          "What a picture shows. forces: the contact forces of the state; delta-R: the range of each normal "
+          "force as a colour")
       ->check(CLI::IsMember({"forces", "delta-R"}))
       ->capture_default_str();
   command->add_option(
       "-o,--output", options->output,
-      "File to write (default: the name of FILE); for csv: NAME.csv is one table of contacts, a "
-      "folder is a scene that import reads");
+      "File to write (default: FILE with another extension, in the current folder). With --format csv: "
+      "NAME.csv is one table of contacts, with forces in mg; any other name is a folder for a CSV scene that "
+      "import reads");
   add_overwrite_option(*command, options->overwrite);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }

@@ -57,18 +57,21 @@ void check_usage(ImportOptions& options, const CLI::App& command) {
   if (options.format == "csv") {
     for (const char* name : {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--columns"}) {
       if (command.count(name) == 0) continue;
-      fail(fmt::format("{} belongs to --format lammps; a CSV scene says it in its files", name));
+      fail(fmt::format("{} is for --format lammps; a CSV scene has it in its files", name));
     }
-    if (options.folder.empty()) fail("--format csv needs the folder of the scene");
+    if (options.folder.empty())
+      fail("--format csv needs the folder of the scene: indet import --format csv FOLDER");
     return;
   }
   if (!options.folder.empty()) {
-    fail(fmt::format("--format lammps reads --atoms and --contacts, not {}", options.folder));
+    fail(fmt::format("--format lammps reads the files of --atoms and --contacts, and no folder ({})",
+                     options.folder));
   }
   if (options.lammps.atoms.empty() || options.lammps.contacts.empty()) {
     fail("--format lammps needs two dumps: --atoms FILE --contacts FILE");
   }
-  if (!options.friction) fail("friction is not in a LAMMPS dump: give the coefficient with --friction MU");
+  if (!options.friction)
+    fail("a LAMMPS dump does not contain the friction coefficient: give it with --friction MU");
   options.lammps.friction = *options.friction;
   options.lammps.gravity = {options.gravity[0], options.gravity[1]};
   options.lammps.columns = parse_columns(options.columns);
@@ -117,16 +120,17 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
     const auto name = [&](DiskId disk) {
       return disk.value() < 0 ? "" : fmt::format(" (disk {})", packing[disk].id);
     };
-    fmt::print("force residual      {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
-    fmt::print("torque residual     {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
-    fmt::print("                    accepted up to {:.0e} mg\n", tolerance);
+    fmt::print("largest net force   {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
+    fmt::print("largest net torque  {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
+    fmt::print("                    (accepted up to {:.0e})\n", tolerance);
     fmt::print("Coulomb violations  {}", report.coulomb_violations);
     if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);
-    fmt::print("\nsliding contacts    {} (non-transmitting: {})\n", report.sliding, report.non_transmitting);
+    fmt::print("\nsliding contacts    {}\n", report.sliding - 2 * report.non_transmitting);
+    fmt::print("without force       {}\n", report.non_transmitting);
   } else {
     fmt::print("the forces are unknown, so their balance was not checked\n");
   }
-  fmt::print("duplicates          {}\n", report.duplicates);
+  fmt::print("listed twice        {}\n", report.duplicates);
   fmt::print("loose disks         {}", report.loose_disks);
   if (report.loose_disks > 0) fmt::print(", the first is disk {}", packing[report.first_loose].id);
   fmt::print("\n");
@@ -143,16 +147,17 @@ int run(ImportOptions& options, const CLI::App& command, const Context& context)
   const double tolerance = options.balance_tolerance.value_or(default_balance_tolerance(imported));
   for (const std::string& warning : imported.warnings) context.warn(warning);
   if (report.coulomb_violations > 0) {
-    context.warn(
-        fmt::format("{} contacts violate the Coulomb conditions, the worst by {:.2e} mg; is the "
-                    "friction that of the simulation?",
-                    report.coulomb_violations, report.worst_violation));
+    context.warn(fmt::format(
+        "{} of {} violate the Coulomb conditions (R ≥ 0, |T| ≤ μR), the worst by {:.2e} mg; is the "
+        "friction coefficient that of the simulation?",
+        report.coulomb_violations, counted(imported.packing.contact_count(), "contact"),
+        report.worst_violation));
   }
   require_balance(imported, report, tolerance);
   write_packing(options.output, imported.packing, {context.arguments, context.resolved_config, {}, {}});
   if (context.json) {
     std::cout << to_json(imported, report, tolerance, options.output).dump(2) << '\n';
-  } else {
+  } else if (context.prints_report()) {
     print_report(imported, report, tolerance);
     fmt::print("written to {}\n", options.output);
   }
@@ -164,27 +169,29 @@ int run(ImportOptions& options, const CLI::App& command, const Context& context)
 Command add_import(CLI::App& root) {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* command = root.add_subcommand("import", "Read a packing that another program made");
-  command->add_option("--format", options->format, "Form of the input (required)")
+  command->add_option("--format", options->format, "Format of the input (required)")
       ->check(CLI::IsMember({"csv", "lammps"}));
   command->add_option("folder", options->folder,
-                      "csv: folder with disks.csv, contacts.csv, walls.csv, scene.toml");
-  command->add_option("--atoms", options->lammps.atoms, "lammps: dump custom (per atom)");
-  command->add_option("--contacts", options->lammps.contacts, "lammps: dump local (per contact)");
-  command->add_option("--timestep", options->lammps.timestep, "lammps: frame to read (default: the last)");
+                      "csv: the folder with disks.csv, contacts.csv, walls.csv, scene.toml");
+  command->add_option("--atoms", options->lammps.atoms, "lammps: the dump of atoms (dump custom)");
+  command->add_option("--contacts", options->lammps.contacts, "lammps: the dump of contacts (dump local)");
+  command->add_option("--timestep", options->lammps.timestep,
+                      "lammps: timestep of the frame to read (default: the last)");
   command->add_option("--friction", options->friction, "lammps: friction coefficient of all contacts")
       ->check(not_negative());
-  command->add_option("--gravity", options->gravity, "lammps: acceleration x,y (default: 0,-1)")
+  command->add_option("--gravity", options->gravity, "lammps: acceleration of gravity x,y (default: 0,-1)")
       ->delimiter(',')
       ->expected(2);
   command
-      ->add_option("--columns", options->columns,
-                   "lammps: other names of columns, NAME=COLUMN,… (id, x, y, radius, mass, vx, vy, omegaz, "
-                   "atom1, atom2, fx, fy, p1, p2, wall:NAME)")
+      ->add_option(
+          "--columns", options->columns,
+          "lammps: columns that have other names in the dumps, as NAME=COLUMN,… with NAME one of id, x, "
+          "y, radius, mass, vx, vy, omegaz, atom1, atom2, fx, fy, p1, p2, wall:NAME (docs/importing.md)")
       ->delimiter(',');
   command
       ->add_option("--balance-tol", options->balance_tolerance,
-                   "Largest residual of force or torque in mg (default: 1e-6, more for files with few "
-                   "digits)")
+                   "Largest net force (mg) or torque (mg r) on a disk that is accepted as balanced (default: "
+                   "1e-6; more if the files have few digits)")
       ->check(not_negative());
   command->add_option("-o,--output", options->output, "HDF5 file to write (required)");
   add_overwrite_option(*command, options->overwrite);

@@ -11,13 +11,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "apps/command.h"
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/packing_input.h"
 #include "apps/ranges_json.h"
-#include "apps/trial_reading.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/file_kind.h"
 #include "libindet/io/packing_file.h"
@@ -212,31 +213,38 @@ void print_packing(const FileContents& contents) {
   const BalanceReport& balance = contents.balance;
   print_line("  simulated R", span_text(force, " mg"));
   print_line("  balance",
-             fmt::format("force to {:.1e} mg, torque to {:.1e} mg r, {} Coulomb violations, {} sliding",
-                         balance.force_residual, balance.torque_residual, balance.coulomb_violations,
-                         balance.sliding));
+             fmt::format("force to {:.1e} mg, torque to {:.1e} mg r, {}", balance.force_residual,
+                         balance.torque_residual, counted(balance.coulomb_violations, "Coulomb violation")));
+  print_line("  at their limit", describe_sliding(balance.sliding, balance.non_transmitting));
 }
 
 void print_simulation(const Account& s) {
   print_line("simulation", s.texts.at("method"));
   print_line("  ended", s.texts.at("reason"));
   print_line("  steps",
-             fmt::format("{} of {}, {} with an iteration that was cut short", s.text_of("steps", "{:.0f}"),
-                         s.text_of("dt"), s.text_of("capped_steps", "{:.0f}")));
+             fmt::format("{} of length {}; in {} the limit of sweeps was reached",
+                         s.text_of("steps", "{:.0f}"), s.text_of("dt"), s.text_of("capped_steps", "{:.0f}")));
   print_line("  raw forces", fmt::format("balance to {} mg", s.text_of("raw_residual", "{:.1e}")));
-  print_line("  polish", fmt::format("{}: to {} mg, {} mg away from the raw forces, {} sliding",
-                                     s.texts.at("polish"), s.text_of("residual", "{:.1e}"),
-                                     s.text_of("distance", "{:.1e}"), s.text_of("sliding", "{:.0f}")));
+  print_line(
+      "  polished forces",
+      fmt::format(
+          "{} to {} mg, {} mg away from the raw ones",
+          s.texts.at("polish") == "balanced" ? "balance" : "do not balance (" + s.texts.at("polish") + "):",
+          s.text_of("residual", "{:.1e}"), s.text_of("distance", "{:.1e}")));
   print_line("  mean R, overlap",
              fmt::format("{} mg, {} r_max", s.text_of("mean_R"), s.text_of("mean_overlap", "{:.1e}")));
+}
+
+void print_radius(const Account& s) {
+  print_line("  radius r", fmt::format("{} ± {} mg; distances from the centre vary by {} mg", s.text_of("r"),
+                                       s.text_of("r_error", "{:.2g}"), s.text_of("spread")));
 }
 
 void print_uniform_sampling(const Account& s) {
   print_line("samples", fmt::format("{} of the uniform distribution, dimension {}, {}",
                                     s.text_of("samples", "{:.0f}"), s.text_of("dim", "{:.0f}"),
                                     s.text_of("converged", "{:.0f}") == "1" ? "converged" : "NOT converged"));
-  print_line("  r", fmt::format("{} ± {} mg, spread {} mg", s.text_of("r"), s.text_of("r_error", "{:.2g}"),
-                                s.text_of("spread")));
+  print_radius(s);
   print_line("  chains",
              fmt::format("{}, R-hat up to {}, at least {} effective samples", s.text_of("chains", "{:.0f}"),
                          s.text_of("rhat", "{:.4f}"), s.text_of("ess", "{:.0f}")));
@@ -246,11 +254,10 @@ void print_uniform_sampling(const Account& s) {
 
 void print_sampling(const Account& s) {
   if (s.texts.at("method") == "uniform") return print_uniform_sampling(s);
-  print_line("samples", fmt::format("{} by {}, {} accepted, in {} chains", s.text_of("samples", "{:.0f}"),
-                                    s.texts.at("method"), s.text_of("accepted", "{:.0f}"),
+  print_line("samples", fmt::format("{}, by perturb-and-resolve, {} accepted; chains: {}",
+                                    s.text_of("samples", "{:.0f}"), s.text_of("accepted", "{:.0f}"),
                                     s.text_of("chains", "{:.0f}")));
-  print_line("  r", fmt::format("{} ± {} mg, spread {} mg", s.text_of("r"), s.text_of("r_error", "{:.2g}"),
-                                s.text_of("spread")));
+  print_radius(s);
   print_line("  centre", fmt::format("{} mg away from the packing's forces", s.text_of("start_distance")));
   print_line("  balance", fmt::format("accepted samples to {} mg", s.text_of("worst_residual", "{:.1e}")));
 }
@@ -258,11 +265,11 @@ void print_sampling(const Account& s) {
 void print_ranges(const ForceRanges& r) {
   const auto measure = [](const Eigen::VectorXd& values) {
     const auto infinite = std::count_if(values.begin(), values.end(), [](double v) { return std::isinf(v); });
-    return span_text(extremes(values), "") + (infinite > 0 ? fmt::format(", {} unbounded", infinite) : "");
+    return span_text(extremes(values), "") + (infinite > 0 ? fmt::format("; {} unbounded", infinite) : "");
   };
   print_line("force ranges", to_string(r.status));
   print_line("  equilibrium",
-             fmt::format("{} unknowns, {} equations, rank {}{}, nullity {}, dim F {}", r.unknowns,
+             fmt::format("{} unknown forces, {} equations, rank {}{}, nullity {}, dimension {}", r.unknowns,
                          r.equations, r.rank, r.rank_ambiguous ? " (ambiguous)" : "", r.nullity, r.dim));
   if (r.choice != ContactChoice::Kind::kAll) {
     print_line("  asked for", fmt::format("{} of {} contacts ({})", r.requested, r.outcome.rows(),
@@ -270,19 +277,19 @@ void print_ranges(const ForceRanges& r) {
                                               ? fmt::format("a sample, seed {}", r.sample_seed)
                                               : "a list"));
   }
-  print_line("  objectives", fmt::format("{}: {} certified, {} unbounded, {} imprecise, {} failed",
-                                         r.objectives, r.certified, r.unbounded, r.imprecise, r.failed));
-  print_line("  residuals",
-             fmt::format("primal to {:.1e}, dual to {:.1e}", r.worst_primal_residual, r.worst_dual_residual));
-  print_line("  delta_R", measure(r.delta_R));
-  print_line("  delta_T", measure(r.delta_T));
-  print_line("  d_R (mg)", measure(r.d_R));
-  print_line("  d_T (mg)", measure(r.d_T));
-  print_line(
-      "  extremal states",
-      fmt::format("{}, by {}, {} solves, {} pivots", r.states.rows(),
-                  r.method == Method::kLp ? "linear programs (" + r.formulation + ")" : to_string(r.method),
-                  r.solves, r.pivots));
+  print_line("  extrema",
+             fmt::format("{}: {} certified{}, {} imprecise, {} failed", r.objectives, r.certified,
+                         r.unbounded > 0 ? fmt::format(" ({} of them unbounded)", r.unbounded) : "",
+                         r.imprecise, r.failed));
+  print_line("  residuals", fmt::format("{:.1e} of balance and friction, {:.1e} of optimality",
+                                        r.worst_primal_residual, r.worst_dual_residual));
+  print_line("  δR (mg)", measure(r.delta_R));
+  print_line("  δT (mg)", measure(r.delta_T));
+  print_line("  dR (mg)", measure(r.d_R));
+  print_line("  dT (mg)", measure(r.d_T));
+  print_line("  extremal states", fmt::format("{}", r.states.rows()));
+  print_line("  found by", fmt::format("{}: {}, {}", describe_method(r),
+                                       counted(r.solves, "search", "searches"), counted(r.pivots, "pivot")));
 }
 
 int inspect_ensemble(const Hdf5File& file, const Context& context) {
@@ -305,31 +312,38 @@ int inspect_ensemble(const Hdf5File& file, const Context& context) {
     std::cout << json.dump(2) << '\n';
     return kDone;
   }
+  if (!digests.match()) context.warn(path + ": its numbers are not those that were written");
+  if (context.quiet) return kDone;
   print_line("ensemble", path);
   for (const auto& [protocol, count] : protocols) print_line("  " + protocol, counted(count, "packing"));
   print_line("  contacts", fmt::format("{}", contents.tables.contacts.rows()));
-  print_line("  missing", fmt::format("{}", contents.missing.size()));
+  print_line("  missing packings", fmt::format("{}", contents.missing.size()));
   for (const Comparison& fact : facts) fmt::print("  {:<30}{}\n", fact.quantity, fact.ours);
   print_line("contents", digests.content + (digests.match() ? "" : " DIFFERS"));
-  if (!digests.match()) context.warn(path + ": its numbers are not those that were written");
   return kDone;
 }
 
 int run(const std::string& given, const Context& context) {
-  const std::string path = std::filesystem::is_directory(given) ? given + "/ensemble.h5" : given;
-  const Hdf5File file = open_on_trial(path);
+  const std::string in_folder = (std::filesystem::path(given) / "ensemble.h5").string();
+  std::error_code ignored;
+  const std::string path = std::filesystem::exists(in_folder, ignored) ? in_folder : given;
+  const Hdf5File file = open_packing_or_ensemble(path);
   if (kind_of(file) == FileKind::kEnsemble) return inspect_ensemble(file, context);
   const FileContents contents = read(file);
   if (context.json) {
     std::cout << to_json(path, contents).dump(2) << '\n';
     return kDone;
   }
+  if (!contents.digests.match()) context.warn(path + ": its numbers are not those that were written");
+  if (context.quiet) return kDone;
   print_line("file", path);
   print_packing(contents);
   if (contents.simulation) print_simulation(*contents.simulation);
   if (contents.trajectory) {
-    print_line("trajectory", fmt::format("{} frames, time {:.4g} … {:.4g}", contents.trajectory->frames,
-                                         contents.trajectory->start, contents.trajectory->end));
+    print_line("trajectory",
+               fmt::format("{}, time {:.4g} … {:.4g}",
+                           counted(static_cast<std::int64_t>(contents.trajectory->frames), "frame"),
+                           contents.trajectory->start, contents.trajectory->end));
   }
   if (contents.sampling) print_sampling(*contents.sampling);
   if (contents.ranges) {
@@ -342,7 +356,6 @@ int run(const std::string& given, const Context& context) {
                                     contents.provenance.at("host"), contents.provenance.at("version"),
                                     contents.provenance.at("git"), contents.provenance.at("compiler")));
   print_line("contents", contents.digests.content + (contents.digests.match() ? "" : " DIFFERS"));
-  if (!contents.digests.match()) context.warn(path + ": its numbers are not those that were written");
   return kDone;
 }
 
@@ -350,8 +363,9 @@ int run(const std::string& given, const Context& context) {
 
 Command add_inspect(CLI::App& root) {
   const auto path = std::make_shared<std::string>();
-  CLI::App* command = root.add_subcommand("inspect", "Show what is in a file");
-  command->add_option("file", *path, "HDF5 file, or the folder of an ensemble")->required();
+  CLI::App* command = root.add_subcommand("inspect", "Show what is in a file, on one screen");
+  command->add_option("file", *path, "HDF5 file of a packing or an ensemble, or the folder of an ensemble")
+      ->required();
   return {command, [path](const Context& context) { return run(*path, context); }};
 }
 

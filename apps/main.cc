@@ -4,12 +4,15 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 
 #include "apps/command.h"
 #include "apps/configuration.h"
+#include "apps/help_format.h"
 #include "apps/memory_limit.h"
+#include "apps/suggestion.h"
 #include "apps/terminal.h"
 #include "libindet/base/error.h"
 #include "libindet/base/version.h"
@@ -18,14 +21,21 @@ namespace indet::app {
 namespace {
 
 constexpr const char* kDescription =
-    "indet tells within what limits the contact forces of a static packing of rigid disks with Coulomb "
-    "friction can vary.";
+    "indet finds between which limits each contact force of a static packing of rigid disks with Coulomb\n"
+    "friction can vary, given only that forces balance.";
 constexpr const char* kFooter =
-    "Options come from flags, then environment variables (INDET_THREADS for --threads), then the file given "
-    "with --config.\n"
-    "Exit status: 0 done; 1 internal error; 2 usage; 3 bad input, nothing written; 4 the packing has no "
-    "admissible\n"
-    "contact state; 5 done, but something is imprecise or not solved; 128+n on signal n.";
+    "--config, --threads, --json and --quiet may be given to every subcommand (see indet --help).\n"
+    "What is not given is taken from an environment variable (INDET_THREADS for --threads), else from the "
+    "file "
+    "of\n--config.\n\n"
+    "Exit status:\n"
+    "  0      done\n"
+    "  1      internal error\n"
+    "  2      wrong usage\n"
+    "  3      bad input; nothing was written\n"
+    "  4      the packing cannot stand: no contact forces balance its load\n"
+    "  5      done, but some result is imprecise, failed or wrong\n"
+    "  128+n  stopped by signal n\n";
 
 std::vector<Command> add_commands(CLI::App& root) {
   std::vector<Command> commands = {
@@ -41,19 +51,22 @@ std::vector<Command> add_commands(CLI::App& root) {
 
 int run(int argc, char** argv) {
   CLI::App root(kDescription, "indet");
+  root.formatter(std::make_shared<HelpFormat>());  // subcommands inherit it
   root.footer(kFooter);
   root.set_version_flag("--version", "indet " + version() + " (" + git_revision() + ")",
                         "Print the version and exit");
   root.require_subcommand(1);
   Context context;
   root.add_option("--config", context.config_file,
-                  "Read options from this TOML file (a table for each subcommand)")
+                  "Read options from this TOML file, with a table per subcommand")
       ->type_name("FILE");
-  root.add_option("--threads", context.threads, "Threads to use; results do not depend on it (0: one a core)")
+  root.add_option("--threads", context.threads,
+                  "Number of threads (0: one per core); results do not depend on it")
       ->check(not_negative())
       ->capture_default_str();
-  root.add_flag("--json", context.json, "Print one JSON document on stdout");
-  root.add_flag("--quiet", context.quiet, "Print neither progress nor notes");
+  root.add_flag("--json", context.json, "Print one JSON document on stdout instead of text");
+  root.add_flag("--quiet", context.quiet,
+                "Print nothing but warnings and errors (and, with --json, the document)");
   name_environment_variables(root);
   const std::vector<Command> commands = add_commands(root);
   context.arguments.assign(argv, argv + argc);
@@ -61,12 +74,10 @@ int run(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     parse_with_configuration(root, arguments, context.config_file);
-  } catch (const CLI::RequiredError& error) {
-    if (root.get_subcommands().empty() && !root.remaining().empty()) {
-      throw UsageError(fmt::format("'{}' is not a subcommand (see indet --help)", root.remaining().front()));
-    }
-    return root.exit(error) == 0 ? kDone : kUsage;
   } catch (const CLI::ParseError& error) {
+    const bool wrong = error.get_exit_code() != 0;  // --help and --version are thrown too
+    const std::string complaint = wrong ? complaint_about_unknown_word(root) : "";
+    if (!complaint.empty()) throw UsageError(complaint);
     return root.exit(error) == 0 ? kDone : kUsage;
   }
   for (const Command& command : commands) {

@@ -93,10 +93,11 @@ int run(const MergeCommand& o, const Context& context) {
 Command add_merge(CLI::App& root) {
   const auto o = std::make_shared<MergeCommand>();
   CLI::App* command =
-      root.add_subcommand("merge", "Join the parts of an ensemble that indet ensemble --members made");
+      root.add_subcommand("merge", "Join the parts of an ensemble that indet ensemble --members computed");
   command->add_option("parts", o->parts, "Folders of the parts")->required()->check(CLI::ExistingDirectory);
   command->add_option("-o,--out", o->folder, "Folder to write")->required();
-  command->add_flag("--allow-missing", o->allow_missing, "Join what is there even if members are missing");
+  command->add_flag("--allow-missing", o->allow_missing,
+                    "Join the parts even if some packings are in none of them");
   add_overwrite_option(*command, o->overwrite);
   return {command, [o](const Context& context) { return run(*o, context); }};
 }

@@ -19,21 +19,21 @@ nlohmann::json describe_paper_work(const PaperWork& work) {
 }
 
 void print_paper_work(const PaperWork& work) {
-  fmt::print("the paper's pivoting: {} over {}, {} with an unexpected number of active constraints\n",
+  fmt::print("pivoting-paper: {} over {}, of which {} had an unexpected number of active constraints\n",
              counted(work.walk_count(), "walk"), counted(work.points, "extremal point"), work.unexpected);
   for (int end = 0; end < kInteriorEnds; ++end) {
     const std::int64_t blocks = work.starts[static_cast<std::size_t>(end)];
     if (blocks == 0) continue;
     const auto kind = static_cast<InteriorEnd>(end);
     if (kind == InteriorEnd::kFound) {
-      fmt::print("  interior point from the simulated state, {} left\n",
+      fmt::print("  interior point: from the simulated state, by moving away from {}\n",
                  counted(work.sliding_left, "sliding contact"));
     } else {
-      fmt::print("  interior point from a linear program ({}): {}\n", counted(blocks, "block"),
+      fmt::print("  interior point: by a linear program in {} ({})\n", counted(blocks, "block"),
                  to_string(kind));
     }
   }
-  fmt::print("  {} reported as failed\n", counted(work.failures(), "walk"));
+  fmt::print("  {} failed, by the method's own account\n", counted(work.failures(), "walk"));
   for (int end = 0; end < kWalkEnds; ++end) {
     const std::int64_t walks = work.walks[static_cast<std::size_t>(end)];
     if (walks == 0 || static_cast<WalkEnd>(end) == WalkEnd::kNoneBetter) continue;

@@ -83,7 +83,7 @@ int run(const ReportCommand& o, const Context& context) {
   if (context.json) {
     std::cout << nlohmann::json{{"report", report}, {"packings", contents.tables.runs.rows()}}.dump(2)
               << '\n';
-  } else {
+  } else if (context.prints_report()) {
     fmt::print("written to {}\n", report);
   }
   return kDone;
@@ -93,8 +93,9 @@ int run(const ReportCommand& o, const Context& context) {
 
 Command add_report(CLI::App& root) {
   const auto o = std::make_shared<ReportCommand>();
-  CLI::App* command = root.add_subcommand("report", "Draw the figures and tables of an ensemble");
-  command->add_option("folder", o->folder, "Folder of an ensemble")
+  CLI::App* command =
+      root.add_subcommand("report", "Make the figures and tables of an ensemble, as one HTML page");
+  command->add_option("folder", o->folder, "Folder of an ensemble, from indet ensemble or merge")
       ->required()
       ->check(CLI::ExistingDirectory);
   add_overwrite_option(*command, o->overwrite);

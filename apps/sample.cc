@@ -10,8 +10,8 @@
 #include "apps/bridge/perturb_record.h"
 #include "apps/command.h"
 #include "apps/output_files.h"
+#include "apps/packing_input.h"
 #include "apps/sample_uniform.h"
-#include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/io/sampling_file.h"
 #include "libsim/perturb_sampling.h"
@@ -60,14 +60,14 @@ void refuse_unused(const SampleOptions& o) {
   }
   for (const Option& option : unused) {
     if (option.is_set)
-      throw UsageError(fmt::format("{} is of {}, which was not given", option.name, option.reader));
+      throw UsageError(fmt::format("{} has no effect without {}", option.name, option.reader));
   }
 }
 
 int run(SampleOptions o, const Context& context) {
   refuse_unused(o);
   const auto begin = std::chrono::steady_clock::now();
-  const Hdf5File file = open_on_trial(o.file);
+  const Hdf5File file = open_packing(o.file);
   const Packing packing = read_packing(file);
   if (!o.output.empty())
     claim_output(o.output, FileKind::kSamples, replacement_rule({o.file}, o.overwrite, context));
@@ -87,13 +87,14 @@ int run(SampleOptions o, const Context& context) {
     nlohmann::json json = {{"file", o.file}, {"method", o.method}, {"seconds", seconds}};
     for (const auto& [name, value] : record.numbers) json[name] = value;
     std::cout << json.dump(2) << '\n';
-  } else {
-    fmt::print("r = {:.4g} ± {:.2g} mg, spread {:.4g} mg; centre {:.4g} mg from the packing's forces\n",
-               ensemble.r, ensemble.r_error, ensemble.spread, ensemble.start_distance);
-    fmt::print(
-        "{} of {} solutions accepted ({} converged); raw residual up to {:.1e} mg, polished {:.1e} mg\n",
-        ensemble.accepted, ensemble.samples.size(), ensemble.converged, ensemble.worst_raw_residual,
-        ensemble.worst_residual);
+  } else if (context.prints_report()) {
+    fmt::print("perturb-and-resolve: {} of {} accepted\n", ensemble.accepted,
+               counted(static_cast<std::int64_t>(ensemble.samples.size()), "solution"));
+    fmt::print("radius r = {:.4g} ± {:.2g} mg about their centre; distances from it vary by {:.4g} mg\n",
+               ensemble.r, ensemble.r_error, ensemble.spread);
+    fmt::print("the centre is {:.4g} mg away from the packing's forces\n", ensemble.start_distance);
+    fmt::print("accepted solutions balance to {:.1e} mg (before the polish to {:.1e} mg)\n",
+               ensemble.worst_residual, ensemble.worst_raw_residual);
     if (!o.output.empty()) fmt::print("written to {}\n", o.output);
   }
   const bool all = ensemble.accepted == static_cast<int>(ensemble.samples.size());
@@ -102,13 +103,17 @@ int run(SampleOptions o, const Context& context) {
 
 void add_perturb_options(CLI::App& command, sim::PerturbOptions& perturb) {
   const std::string group = "Options of --method perturb";
-  command.add_option("--samples", perturb.samples, "Number of solutions")
+  command.add_option("--samples", perturb.samples, "Number of solutions to draw")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--width", perturb.width, "Forces are multiplied by numbers in 1 ± WIDTH")
+  command
+      .add_option("--width", perturb.width,
+                  "Each force is multiplied by a random number between 1 - WIDTH and 1 + WIDTH")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--distance", perturb.distance, "Solve until balanced forces are as close as this (mg)")
+  command
+      .add_option("--distance", perturb.distance,
+                  "Solve until balanced forces are at most this far away (mg, norm over all contacts)")
       ->capture_default_str()
       ->group(group);
   command
@@ -116,7 +121,7 @@ void add_perturb_options(CLI::App& command, sim::PerturbOptions& perturb) {
                   "... or until no force changes by more than this in a sweep (mg)")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--sweeps", perturb.solver.max_sweeps, "Most sweeps a solution")
+  command.add_option("--sweeps", perturb.solver.max_sweeps, "Largest number of sweeps per solution")
       ->capture_default_str()
       ->group(group);
 }
@@ -124,32 +129,31 @@ void add_perturb_options(CLI::App& command, sim::PerturbOptions& perturb) {
 void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
   const std::string group = "Options of --method uniform";
   command
-      .add_option(
-          "--effective", uniform.sampling.effective,
-          "Sample until R-hat <= 1.01 and every R, T and the norm have as many effective samples, in bulk "
-          "and tail")
+      .add_option("--effective", uniform.sampling.effective,
+                  "Sample until R-hat <= 1.01, and until every R, every T and the norm have this many "
+                  "effective samples (docs/sampling.md)")
       ->capture_default_str()
       ->group(group);
   command
       .add_option("--limit", uniform.sampling.limit,
-                  "... or until each chain has made so many sweeps (exit status 5)")
+                  "... or until each chain has made this many sweeps (the exit status is then 5)")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--states", uniform.states, "Number of samples to write; at most all that were drawn")
+  command.add_option("--states", uniform.states, "Number of sampled states to write to the file")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group(group);
   command
-      .add_flag("--covariance", uniform.covariance, "Write the covariances of all R and T, 2M x 2M numbers")
+      .add_flag("--covariance", uniform.covariance,
+                "Also write the covariances of all R and T, 2M x 2M numbers")
       ->group(group);
   command
-      .add_flag("--shape", uniform.shape,
-                "Also find the diameter, the mean width and the volume of the polytope (with the ranges of "
-                "the file, or "
-                "by finding them)")
+      .add_flag(
+          "--shape", uniform.shape,
+          "Also find the diameter, the mean width and the volume of the polytope, from the force ranges in "
+          "the file (which are computed if it has none)")
       ->group(group);
-  command
-      .add_option("--volume-sweeps", uniform.volume_sweeps, "Sweeps of each chain and phase for the volume")
+  command.add_option("--volume-sweeps", uniform.volume_sweeps, "For the volume: sweeps per chain and phase")
       ->check(CLI::Range(10, 100000000))
       ->capture_default_str()
       ->group(group);
@@ -160,27 +164,30 @@ void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
 Command add_sample(CLI::App& root) {
   const auto options = std::make_shared<SampleOptions>();
   sim::PerturbOptions& perturb = options->perturb;
-  CLI::App* command = root.add_subcommand("sample", "Sample the contact states of a packing");
-  command->add_option("file", options->file, "HDF5 file of a packing; for perturb, with known forces")
+  CLI::App* command =
+      root.add_subcommand("sample", "Draw many of the contact states that a packing can have");
+  command->add_option("file", options->file, "HDF5 file of a packing; perturb needs simulated forces in it")
       ->required()
       ->check(CLI::ExistingFile);
   command
       ->add_option(
           "--method", options->method,
-          "perturb: perturb the forces and solve again, as the paper does; uniform: all states of the "
-          "polytope equally likely")
+          "perturb: perturb the forces and solve for balanced ones again, as the paper does; uniform: all "
+          "states of the polytope equally likely")
       ->check(CLI::IsMember({"perturb", "uniform"}))
       ->capture_default_str();
   command
-      ->add_option("--chains", options->chains,
-                   "Chains that the samples are drawn in (0: 1 for perturb, from the packing's forces; 4 for "
-                   "uniform, from places far apart)")
+      ->add_option(
+          "--chains", options->chains,
+          "Number of independent chains that the samples are drawn in (0: one for perturb, which starts "
+          "from the packing's forces; four for uniform, which start far apart)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
   add_perturb_options(*command, perturb);
   add_uniform_options(*command, options->uniform);
-  command->add_option("-o,--output", options->output, "HDF5 file to write: the packing with /sampling");
+  command->add_option("-o,--output", options->output,
+                      "HDF5 file to write, with the packing and the samples (default: none)");
   add_overwrite_option(*command, options->overwrite);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }

@@ -40,7 +40,8 @@ std::string describe_ray(const Packing& packing, const ForcePolytope& polytope) 
     text += fmt::format("{}contact {} ({}) by R {:+.3g}, T {:+.3g}", i > 0 ? "; " : "", k,
                         contact_name(packing, ContactId(k)), forces[2 * k], forces[2 * k + 1]);
   }
-  if (growing.size() > kShown) text += fmt::format("; and {} more contacts", growing.size() - kShown);
+  if (growing.size() > kShown)
+    text += "; and " + counted(static_cast<std::int64_t>(growing.size() - kShown), "more contact");
   return text;
 }
 
@@ -79,39 +80,42 @@ void print(const Packing& packing, const Findings& f, const UniformSettings& set
   const UniformSample& s = f.sample;
   const auto mg = [&](const InternalForce& force) { return f.polytope.problem.units.weights(force).value(); };
   if (!f.body) {
-    fmt::print("The polytope is a point: one contact state, ‖F‖ = {:.4g} mg\n", mg(s.mean_norm));
+    fmt::print("polytope of contact states: a point; the only state has the norm ‖F‖ = {:.4g} mg\n",
+               mg(s.mean_norm));
     return;
   }
-  fmt::print("polytope of contact states: dimension {}, {} independent block{}\n", f.polytope.dim,
-             f.polytope.blocks.size(), f.polytope.blocks.size() == 1 ? "" : "s");
-  fmt::print(
-      "uniform: r = {:.4g} ± {:.2g} mg, spread {:.4g} mg; ‖F‖ = {:.4g} mg, standard deviation {:.2g} mg\n",
-      mg(s.r), mg(s.r_error), mg(s.spread), mg(s.mean_norm), mg(s.norm_deviation));
+  fmt::print("polytope of contact states: dimension {}, {}\n", f.polytope.dim,
+             counted(static_cast<std::int64_t>(f.polytope.blocks.size()), "independent block"));
+  fmt::print("radius r = {:.4g} ± {:.2g} mg about the centre; distances from it vary by {:.4g} mg\n", mg(s.r),
+             mg(s.r_error), mg(s.spread));
+  fmt::print("norm ‖F‖: mean {:.4g} mg, standard deviation {:.2g} mg\n", mg(s.mean_norm),
+             mg(s.norm_deviation));
   const std::string slowest =
       s.slowest == 2 * packing.contact_count()
           ? "‖F‖"
           : fmt::format("{} of contact {}", s.slowest % 2 == 0 ? "R" : "T", s.slowest / 2);
   fmt::print(
-      "{} after {} sweeps of {} chains: R-hat up to {:.4f}; effective samples at least {:.0f} (bulk), {:.0f} "
-      "(tail), fewest of {}\n",
+      "{} after {} sweeps of each of {} chains: R-hat at most {:.4f}; at least {:.0f} (bulk) and {:.0f} "
+      "(tail) effective samples of each quantity, fewest of {}\n",
       s.converged ? "converged" : fmt::format("NOT converged (limit {})", settings.sampling.limit), s.sweeps,
       s.chains, s.rhat, s.bulk, s.tail, slowest);
   if (f.placement) {
     fmt::print(
-        "simulated state: {:.4g} mg from the centre (percentile {:.1f}), norm at percentile {:.1f}, sum of R "
-        "at {:.1f}\n",
+        "simulated state among the samples: {:.4g} mg from the centre (percentile {:.1f}); percentile {:.1f} "
+        "of the norm, {:.1f} of ΣR\n",
         f.placement->distance, f.placement->distance_percentile, f.placement->norm_percentile,
         f.placement->normal_force_percentile);
   }
   if (f.shape) {
     fmt::print(
-        "inscribed ball: radius {:.4g} mg; diameter between {:.4g} and {:.4g} mg; mean width {:.4g} ± {:.2g} "
-        "mg\n",
+        "size: largest ball inside of radius {:.4g} mg; diameter between {:.4g} and {:.4g} mg; mean width "
+        "{:.4g} ± {:.2g} mg\n",
         f.shape->inscribed_radius, f.shape->diameter_lower, f.shape->diameter_upper, f.shape->mean_width,
         f.shape->mean_width_error);
-    if (f.shape->unsolved > 0) fmt::print("NOT solved: {} linear programs for widths\n", f.shape->unsolved);
-    fmt::print("log volume: {:.4g} ± {:.2g} (dimension {}, mg)\n", f.volume->log_volume, f.volume->error,
-               f.polytope.dim);
+    if (f.shape->unsolved > 0)
+      fmt::print("NOT solved: {} for widths\n", counted(f.shape->unsolved, "linear program"));
+    fmt::print("natural logarithm of the volume (mg to the power {}): {:.4g} ± {:.2g}\n", f.polytope.dim,
+               f.volume->log_volume, f.volume->error);
   }
 }
 
@@ -172,14 +176,16 @@ int sample_uniformly(const Hdf5File& file, const std::string& output, const Pack
       const nlohmann::json json = {{"file", path}, {"method", "uniform"}, {"stopped_by", "empty"}};
       std::cout << json.dump(2) << '\n';
     }
-    context.warn(
-        fmt::format("{}: no contact forces balance the load; indet analyze shows which disks move", path));
+    context.warn(fmt::format(
+        "{0}: the packing cannot stand: no contact forces balance its load; indet analyze {0} tells "
+        "which disks move",
+        path));
     return f.polytope.doubtful ? kUncertain : kNoAdmissibleState;
   }
   if (f.polytope.status == PolytopeStatus::kUnbounded) {
     throw InputError(
-        fmt::format("{}: the contact forces can grow without limit, so that no distribution over them is "
-                    "uniform; along a ray grow {}",
+        fmt::format("{}: some contact forces can grow without limit, so no distribution over all states is "
+                    "uniform; together can grow {}",
                     path, describe_ray(packing, f.polytope)));
   }
   std::optional<ForceRanges> ranges;
@@ -218,7 +224,7 @@ int sample_uniformly(const Hdf5File& file, const std::string& output, const Pack
     json["stopped_by"] = !f.body ? "point" : f.sample.converged ? "convergence" : "limit";
     for (const auto& [name, value] : record.numbers) json[name] = value;
     std::cout << json.dump(2) << '\n';
-  } else {
+  } else if (context.prints_report()) {
     print(packing, f, settings);
     if (!output.empty()) fmt::print("written to {} ({:.2f} s)\n", output, f.sample.seconds);
   }

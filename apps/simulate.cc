@@ -15,6 +15,7 @@
 #include "apps/command.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
+#include "apps/packing_input.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/io/destination.h"
@@ -86,7 +87,7 @@ void refuse_scene_options(const CLI::App& command) {
                            "--force-unit", "--width", "--funnel-angle", "--jitter", "--container"}) {
     if (command.count(name) > 0) {
       throw InputError(
-          fmt::format("{} has no effect together with --from, whose scene is that of the file", name));
+          fmt::format("{} has no effect together with --from: the scene is that of the packing there", name));
     }
   }
 }
@@ -94,7 +95,9 @@ void refuse_scene_options(const CLI::App& command) {
 SimulationOptions simulation_options_of(const SimulateOptions& o, bool rigid, const CLI::App& command) {
   SimulationOptions options;
   const auto refuse = [&](const char* name, const char* where) {
-    if (command.count(name) > 0) throw InputError(fmt::format("{} belongs to {}", name, where));
+    if (command.count(name) > 0)
+      throw InputError(
+          fmt::format("{} has no effect with --protocol {}: it is for {}", name, o.protocol_name, where));
   };
   if (rigid) {
     for (const char* name : {"--preset", "--stiffness", "--damping", "--damping-method"})
@@ -144,7 +147,7 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
   const bool second = starts_from_cd1(o.protocol());
   if (!o.from.empty()) {
     refuse_scene_options(command);
-    const Packing packing = read_packing(open_on_trial(o.from));
+    const Packing packing = read_packing(open_packing(o.from));
     require_memory_for(packing.disk_count());
     const sim::Friction friction = sim::friction_of(packing, {o.mu, o.wall_mu ? o.wall_mu : o.mu});
     Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
@@ -167,7 +170,8 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
               .height = resolved.height,
               .description = sim::to_toml(resolved)};
   if (second) {
-    context.note("no --from: simulating cd1 first");
+    context.note(fmt::format("{} starts from a cd1 packing, and --from names none: simulating cd1 first",
+                             o.protocol_name));
     SimulationOptions first;
     first.time_limit = sim::default_time_limit(start.world, start.height);
     const sim::Simulation cd1 = sim::simulate(start.world, {}, first, {.progress = context.progress()});
@@ -194,14 +198,14 @@ nlohmann::json to_json(const SimulateOptions& o, const Packing& packing, const S
 
 void print_report(const Packing& packing, const sim::Simulation& result, double seconds) {
   const sim::Polished& polished = result.polished;
-  fmt::print("{}, seed {}: {} disks, {} contacts, mean R = {:.4g} mg, mean overlap {:.2e} r_max\n",
-             packing.origin.protocol, packing.origin.seed, packing.disk_count(), packing.contact_count(),
-             result.mean_force, result.mean_overlap);
+  fmt::print("{}, seed {}: {}, {}, mean R = {:.4g} mg, mean overlap {:.2e} r_max\n", packing.origin.protocol,
+             packing.origin.seed, counted(packing.disk_count(), "disk"),
+             counted(packing.contact_count(), "contact"), result.mean_force, result.mean_overlap);
   fmt::print("{}\n", result.settled.reason);
-  fmt::print("balanced to         {:.2e} mg (raw {:.2e} mg), {:.2e} mg away from the raw state\n",
-             polished.residual, result.settled.residual, polished.distance);
-  fmt::print("sliding contacts    {}\n", polished.sliding);
-  fmt::print("{} steps in {:.2f} s\n", result.settled.report.steps, seconds);
+  fmt::print("polished forces balance to {:.2e} mg, and are {:.2e} mg away from the simulated ones\n",
+             polished.residual, polished.distance);
+  fmt::print("{}\n", counted(polished.sliding, "sliding contact"));
+  fmt::print("{} in {:.2f} s\n", counted(result.settled.report.steps, "step"), seconds);
 }
 
 std::filesystem::path checkpoint_path_of(const SimulateOptions& o) { return o.output + ".checkpoint"; }
@@ -233,13 +237,12 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   if (o.resume && has_checkpoints && std::filesystem::exists(checkpoint_path)) {
     const StoredCheckpoint checkpoint = read_checkpoint(open_on_trial(checkpoint_path));
     if (checkpoint.fingerprint != fingerprint) {
-      throw InputError(
-          fmt::format("{} belongs to a run with other options; delete it, or run without --resume",
-                      checkpoint_path.string()));
+      throw InputError(fmt::format("{} is from a run with other options; delete it, or run without --resume",
+                                   checkpoint_path.string()));
     }
     resume = loaded(checkpoint, start.world.friction);
     trajectory = checkpoint.trajectory;
-    context.note(fmt::format("resuming after {} steps", resume->report.steps));
+    context.note("resuming after " + counted(resume->report.steps, "step"));
   }
   sim::Listener listener;
   listener.progress = context.progress();
@@ -248,7 +251,8 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   listener.checkpoint_seconds = has_checkpoints ? o.checkpoint : 0;
   listener.on_checkpoint = [&](const sim::Checkpoint& checkpoint) {
     write_checkpoint(checkpoint_path, stored(checkpoint, fingerprint, trajectory), about);
-    context.note(fmt::format("{} written; go on with --resume", checkpoint_path.string()));
+    context.note(
+        fmt::format("checkpoint written to {}; --resume goes on from there", checkpoint_path.string()));
   };
   const sim::Simulation result =
       sim::simulate(start.world, {}, options, listener, resume ? &*resume : nullptr);
@@ -268,12 +272,12 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
 
   if (context.json) {
     std::cout << to_json(o, packing, record, seconds).dump(2) << '\n';
-  } else {
+  } else if (context.prints_report()) {
     print_report(packing, result, seconds);
     fmt::print("written to {}\n", o.output);
   }
   if (result.polished.balanced) return kDone;
-  context.warn("the forces do not balance: " + result.polished.reason);
+  context.warn(fmt::format("{}: the forces do not balance: {}", o.output, result.polished.reason));
   return kUncertain;
 }
 
@@ -289,82 +293,106 @@ void add_scene_options(CLI::App& command, SimulateOptions& o) {
       ->group(group);
   command.add_option("--density", o.density, "Mass per area (default: 1)")->group(group);
   command.add_option("--mu", o.mu, "Friction coefficient (default: 0.3, or that of --from)")->group(group);
-  command.add_option("--wall-mu", o.wall_mu, "Friction of the walls (default: --mu)")->group(group);
-  command.add_option("--gravity", o.gravity, "Acceleration x,y (default: 0,-1)")
+  command.add_option("--wall-mu", o.wall_mu, "Friction coefficient of the walls (default: that of --mu)")
+      ->group(group);
+  command.add_option("--gravity", o.gravity, "Acceleration of gravity x,y (default: 0,-1)")
       ->delimiter(',')
       ->expected(2)
       ->group(group);
   command.add_option("--force-unit", o.force_unit, "Unit of force of a scene without gravity")->group(group);
-  command.add_option("--container", o.container, "box, floor, funnel or none (default: box)")->group(group);
-  command.add_option("--width", o.width, "Lx (default: 2.2 radii a column)")->group(group);
-  command.add_option("--height", o.height, "Ly of the grid and the time limit (default: 2 radii a row)")
+  command.add_option("--container", o.container, "Walls: box, floor, funnel or none (default: box)")
+      ->group(group);
+  command.add_option("--width", o.width, "Width Lx of the container (default: 2.2 largest radii per column)")
+      ->group(group);
+  command
+      .add_option(
+          "--height", o.height,
+          "Height Ly of the grid, from which the time limit follows (default: 2 largest radii per row)")
       ->group(group);
   command.add_option("--funnel-angle", o.funnel_angle, "Slope of the funnel, degrees (default: 30)")
       ->group(group);
-  command.add_option("--columns", o.columns, "Columns of the grid (default: keeps the box's shape)")
+  command
+      .add_option("--columns", o.columns,
+                  "Columns of the grid (default: as many as keep the shape of the box)")
       ->group(group);
-  command.add_option("--jitter", o.jitter, "Random part of the room in a cell, 0 to 1 (default: 1)")
+  command
+      .add_option("--jitter", o.jitter,
+                  "How much of the free room in its cell a disk is moved by at random, 0 to 1 (default: 1)")
       ->group(group);
 }
 
 void add_method_options(CLI::App& command, SimulateOptions& o) {
-  const char* group = "Method (units: mg, r_max, sqrt(r_max/g))";
-  command.add_option("--dt", o.dt, "Time step (default: 5e-3 for cd, by stability for md)")->group(group);
+  const char* group =
+      "Method (in units of mg, r_max, sqrt(r_max/g); cd: contact dynamics, md: molecular dynamics)";
+  command.add_option("--dt", o.dt, "Time step (default: 5e-3 for cd; for md, what is stable)")->group(group);
   command
       .add_option("--tolerance", o.tolerance,
-                  "Largest change of a force in the last sweep (cd: 1e-6, md: 1e-7)")
+                  "Sweeps end when no force changes by more than this (default: 1e-6 for cd, 1e-7 for md)")
       ->group(group);
-  command.add_option("--sweeps", o.sweeps, "Most sweeps a step (cd1: 300, cd2: 3000, md: 1000)")
+  command
+      .add_option("--sweeps", o.sweeps,
+                  "Largest number of sweeps per step (default: cd1 300, cd2 3000, md 1000)")
       ->group(group);
-  command.add_option("--alpha", o.alpha, "cd: fraction of an overlap removed a step (default: 0.1)")
+  command
+      .add_option("--alpha", o.alpha, "cd: fraction of an overlap that is removed per step (default: 0.1)")
       ->group(group);
-  command.add_option("--restitution", o.restitution, "cd: normal restitution (default: 0)")->group(group);
+  command.add_option("--restitution", o.restitution, "cd: coefficient of normal restitution (default: 0)")
+      ->group(group);
   command
       .add_option("--tangential-restitution", o.tangential_restitution,
-                  "cd: tangential restitution (default: 0)")
+                  "cd: coefficient of tangential restitution (default: 0)")
       ->group(group);
   command
-      .add_option("--preset", o.preset, "md: stiff (damping 558) or paper (damping 7.7e4), stiffness 1.2e6")
+      .add_option("--preset", o.preset,
+                  "md: stiffness 1.2e6 and damping 558 (stiff) or 7.7e4, as in the paper (paper)")
       ->check(CLI::IsMember({"stiff", "paper"}))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--stiffness", o.stiffness, "md: spring constant k")->group(group);
-  command.add_option("--damping", o.damping, "md: damping constant")->group(group);
-  command.add_option("--damping-method", o.damping_method, "md: explicit, implicit or automatic")
+  command.add_option("--stiffness", o.stiffness, "md: spring constant k of a contact")->group(group);
+  command.add_option("--damping", o.damping, "md: damping constant gamma of a contact")->group(group);
+  command.add_option("--damping-method", o.damping_method, "md: how damping is integrated in time")
       ->check(CLI::IsMember({"automatic", "explicit", "implicit"}))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--residual", o.residual, "Static: forces balance to this (cd: 1e-4, md: 1e-6)")
+  command
+      .add_option("--residual", o.residual,
+                  "At rest means: forces balance to this (default: 1e-4 for cd, 1e-6 for md) ...")
       ->group(group);
   command
-      .add_option("--kinetic-energy", o.kinetic_energy, "Static: kinetic energy per disk (default: 1e-12)")
+      .add_option("--kinetic-energy", o.kinetic_energy,
+                  "... and the kinetic energy per disk is below this (default: 1e-12)")
       ->group(group);
-  command.add_option("--time-limit", o.time_limit, "Simulated time (default: 6 sqrt(Ly/g))")->group(group);
+  command.add_option("--time-limit", o.time_limit, "Largest simulated time (default: 6 sqrt(Ly/g))")
+      ->group(group);
 }
 
 }  // namespace
 
 Command add_simulate(CLI::App& root) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = root.add_subcommand("simulate", "Make a packing by contact or molecular dynamics");
+  CLI::App* command = root.add_subcommand("simulate", "Make a packing: let disks fall and come to rest");
   command
-      ->add_option("--protocol", options->protocol_name,
-                   "cd1, md1: from a grid; cd2, md2: from a cd1 packing, at rest")
+      ->add_option(
+          "--protocol", options->protocol_name,
+          "cd: contact dynamics, md: molecular dynamics; cd1, md1: disks fall from a grid; cd2, md2: "
+          "start at rest from the positions of a cd1 packing")
       ->required()
       ->check(CLI::IsMember(sim::simulated_names()));
-  command->add_option("--seed", options->seed, "Seed of the scene (default: 0)");
-  command->add_option("--from", options->from, "Start from the positions of this packing")
+  command->add_option("--seed", options->seed, "Seed of the random radii and positions (default: 0)");
+  command->add_option("--from", options->from, "HDF5 file of the packing to start from")
       ->check(CLI::ExistingFile);
   command->add_option("-o,--output", options->output, "HDF5 file to write")->required();
   add_overwrite_option(*command, options->overwrite);
   command
       ->add_option("--every", options->every,
-                   "Store a frame of the trajectory at this interval of simulated time")
+                   "Store the trajectory, a frame at each such interval of simulated time")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--checkpoint", options->checkpoint, "Wall-clock seconds between checkpoints (0: none)")
+  command
+      ->add_option("--checkpoint", options->checkpoint, "Seconds of run time between checkpoints (0: none)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_flag("--resume", options->resume, "Go on from OUTPUT.checkpoint, if there is one");
+  command->add_flag("--resume", options->resume,
+                    "Go on from the checkpoint of an interrupted run, OUTPUT.checkpoint, if there is one");
   add_scene_options(*command, *options);
   add_method_options(*command, *options);
   return {command, [options, command](const Context& context) { return run(*options, *command, context); }};

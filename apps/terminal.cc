@@ -90,10 +90,6 @@ void catch_signals() {
   std::signal(SIGTERM, remember);
 }
 
-std::string counted(std::int64_t number, const std::string& noun) {
-  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
-}
-
 int caught_signal() { return signal_number; }
 
 int Context::thread_count() const {

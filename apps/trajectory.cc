@@ -8,7 +8,7 @@
 
 #include "apps/command.h"
 #include "apps/output_files.h"
-#include "apps/trial_reading.h"
+#include "apps/packing_input.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/trajectory_picture.h"
 #include "libindet/io/simulation_file.h"
@@ -25,7 +25,7 @@ struct TrajectoryOptions {
 };
 
 int run(const TrajectoryOptions& o, const Context& context) {
-  const Hdf5File file = open_on_trial(o.file);
+  const Hdf5File file = open_packing(o.file);
   const Packing packing = read_packing(file);
   const Trajectory trajectory = read_trajectory(file);
   if (trajectory.empty() || trajectory.front().positions.size() != packing.disks.size()) {
@@ -47,9 +47,10 @@ int run(const TrajectoryOptions& o, const Context& context) {
                                 {"end", trajectory.back().time}}
                      .dump(2)
               << '\n';
-  } else {
-    fmt::print("{} frames from t = {:.4g} to {:.4g}, drawn in {}\n", trajectory.size(),
-               trajectory.front().time, trajectory.back().time, o.output);
+  } else if (context.prints_report()) {
+    fmt::print("{} from t = {:.4g} to {:.4g}\nwritten to {}\n",
+               counted(static_cast<std::int64_t>(trajectory.size()), "frame"), trajectory.front().time,
+               trajectory.back().time, o.output);
   }
   return kDone;
 }
@@ -58,18 +59,18 @@ int run(const TrajectoryOptions& o, const Context& context) {
 
 Command add_trajectory(CLI::App& root) {
   const auto options = std::make_shared<TrajectoryOptions>();
-  CLI::App* command =
-      root.add_subcommand("trajectory", "Draw the trajectory of a simulation (simulate --every)");
-  command->add_option("file", options->file, "HDF5 file with a trajectory")
+  CLI::App* command = root.add_subcommand("trajectory", "Draw the frames that simulate --every stored");
+  command
+      ->add_option("file", options->file, "HDF5 file of a packing with a trajectory (from simulate --every)")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--output", options->output, "SVG file to write")->required();
   add_overwrite_option(*command, options->overwrite);
-  command->add_option("--frames", options->frames, "Frames side by side in the strip")
+  command->add_option("--frames", options->frames, "Number of frames that are drawn side by side")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_flag("--animate", options->animate, "One animated picture of all frames instead of a strip");
-  command->add_option("--seconds", options->seconds, "Duration of the animation")
+  command->add_flag("--animate", options->animate, "Draw one animated picture of all frames instead");
+  command->add_option("--seconds", options->seconds, "Duration of the animation in seconds")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   return {command, [options](const Context& context) { return run(*options, context); }};

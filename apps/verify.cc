@@ -10,7 +10,7 @@
 #include <string>
 
 #include "apps/command.h"
-#include "apps/trial_reading.h"
+#include "apps/packing_input.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/verify/exact_check.h"
@@ -71,7 +71,7 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
 
 int run(const Options& options, const Context& context) {
   const std::string& path = options.file;
-  const Hdf5File file = open_on_trial(path);
+  const Hdf5File file = open_packing(path);
   const Verification result = verify_file(file, context);
   std::optional<ExactCheck> check;
   std::optional<ForceRanges> ranges;
@@ -96,7 +96,7 @@ int run(const Options& options, const Context& context) {
                         {"worst_optimality_gap", result.worst_optimality_gap}};
     if (check) json["exact"] = to_json(*check, seconds);
     std::cout << json.dump(2) << '\n';
-  } else {
+  } else if (!context.quiet || !result.passed() || (check && !check->passed())) {
     fmt::print("{}: {} checks, {} contradictions\n", path, result.checks, result.contradictions);
     for (const std::string& message : result.messages) fmt::print("  {}\n", message);
     if (result.passed()) {

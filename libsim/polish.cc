@@ -253,7 +253,8 @@ Polished polish(const Packing& packing, const Eigen::VectorXd& raw, const Polish
   result.cone_violation = cone_violation(packing, result.forces);
   result.distance = units.weights(InternalForce((run.forces - scaled).norm())).value();
   if (!run.settled) {
-    result.reason = fmt::format("the active set did not settle in {} rounds", run.rounds);
+    result.reason =
+        fmt::format("which contacts slide and which are open was not settled in {} rounds", run.rounds);
   } else if (!(result.residual <= options.residual * units.internal_in_weights())) {
     result.reason = fmt::format("the contacts cannot balance the disks: {:.2e} mg remain", result.residual);
   } else {

@@ -53,11 +53,10 @@ std::string describe_motion(const World& world, const Settled& settled) {
     }
   }
   return fmt::format(
-      "time limit {:.4g} reached: kinetic energy per disk {:.2e}, force residual {:.2e}; disk {} moves "
-      "fastest, with {:.2e}, "
-      "at ({:.4g}, {:.4g})",
-      settled.time, settled.kinetic_energy, settled.residual, world.id[fastest], speed / units.speed(),
-      world.x[fastest], world.y[fastest]);
+      "not at rest at the time limit, {:.4g}: kinetic energy per disk {:.2e}, forces balance to {:.2e} mg; "
+      "disk {} moves fastest, at ({:.4g}, {:.4g}) with speed {:.2e}",
+      settled.time, settled.kinetic_energy, settled.residual, world.id[fastest], world.x[fastest],
+      world.y[fastest], speed / units.speed());
 }
 
 }  // namespace
@@ -130,7 +129,7 @@ Settled settle(Stepper& stepper, const StopCriteria& criteria, int stride, const
   result.residual = imbalance_of(stepper.world(), contacts).worst();
   result.reason =
       result.ending == Ending::kStatic
-          ? fmt::format("static at time {:.4g}: forces balance to {:.1e}", result.time, result.residual)
+          ? fmt::format("at rest at time {:.4g}: forces balance to {:.1e} mg", result.time, result.residual)
           : describe_motion(stepper.world(), result);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -114,14 +115,15 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
 
 namespace {
 
-/// One column of the ranges: a field with one number a contact. An end of a range is followed by its outcome.
+/// One column of the ranges: a field with one number a contact, forces in mg and named so. An end of a range
+/// is followed by its outcome.
 struct RangeColumn {
   std::string name;
   Eigen::VectorXd values;
   std::optional<Column> end;
 };
 
-std::vector<RangeColumn> range_columns(const ForceRanges& ranges) {
+std::vector<RangeColumn> range_columns(const ForceRanges& ranges, double mg) {
   std::vector<RangeColumn> columns;
   visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {
     if constexpr (requires { requires Value::ColsAtCompileTime == 1; }) {
@@ -130,6 +132,9 @@ std::vector<RangeColumn> range_columns(const ForceRanges& ranges) {
       for (const Column end : {kMinR, kMaxR, kMinT, kMaxT}) {
         if (column.name == to_string(end)) column.end = end;
       }
+      const std::string_view unit = field.unit;
+      if (unit == "force") column.values /= mg;
+      if (unit == "force" || unit == "mg") column.name += "_mg";
     }
   });
   return columns;
@@ -140,20 +145,21 @@ std::vector<RangeColumn> range_columns(const ForceRanges& ranges) {
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
                          const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges) {
   const FileIds ids(packing);
+  const double mg = packing.force_unit();
   const std::vector<RangeColumn> columns =
-      ranges != nullptr ? range_columns(*ranges) : std::vector<RangeColumn>{};
-  std::string text = std::string(kTableBegin) + "R,T";
+      ranges != nullptr ? range_columns(*ranges, mg) : std::vector<RangeColumn>{};
+  std::string text = std::string(kTableBegin) + "R_mg,T_mg";
   for (const RangeColumn& column : columns) {
     text += "," + column.name;
-    if (column.end) text += "," + column.name + "_outcome";
+    if (column.end) text += fmt::format(",{}_outcome", to_string(*column.end));
   }
   text += "\n";
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& c = packing[ContactId(i)];
     const Vector2 point = packing[c.a].position - packing[c.a].radius * c.normal;
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
-                    c.normal.x(), c.normal.y(), c.gap, c.mu, field(forces[2 * i]), field(forces[2 * i + 1]));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
+                        c.normal.x(), c.normal.y(), c.gap, c.mu, field(forces[2 * i] / mg),
+                        field(forces[2 * i + 1] / mg));
     for (const RangeColumn& column : columns) {
       text += "," + field(column.values[i]);
       if (column.end) text += fmt::format(",{}", to_string(ranges->outcome(i, *column.end)));

@@ -20,9 +20,11 @@ inline constexpr std::array<const char*, 4> kSceneFiles = {"disks.csv", "walls.c
 void write_csv_scene(const std::filesystem::path& folder, const Packing& packing,
                      const Eigen::Ref<const Eigen::VectorXd>& forces);
 
-/// One table with a row a contact, for spreadsheets: contact (its row, from 0), a, b (as in contacts.csv), x,
-/// y (contact point), nx, ny, gap, mu, R, T, and if there are `ranges` (else null) R_min, R_max, T_min,
-/// T_max, their outcomes, and the measures. Unbounded values are inf; empty fields are unknown.
+/// One table with a row a contact, for spreadsheets and pandas: contact (its row, from 0), a, b (as in
+/// contacts.csv), x, y (contact point), nx, ny, gap, mu, R_mg, T_mg, and if there are `ranges` (else null)
+/// R_min_mg … T_max_mg, their outcomes, and the measures delta_R_mg … d_T_mg, R_star, T_star. Columns that
+/// end in _mg are in the packing's unit of force, lengths in the scene's unit; `forces` and `ranges` are
+/// given in the scene's unit of force. Unbounded values are inf; empty fields are unknown.
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
                          const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges);
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "libindet/base/counted.h"
 namespace indet {
 
 void warn_of_large_gaps(ImportedPacking& imported) {
@@ -17,11 +18,12 @@ void warn_of_large_gaps(ImportedPacking& imported) {
     if (worst == nullptr || std::abs(contact.gap) > std::abs(worst->gap)) worst = &contact;
   }
   if (worst == nullptr) return;
-  imported.warnings.push_back(fmt::format(
-      "{} contacts have a gap or overlap above 1 % of the largest radius; the largest, {:.3g}, is between "
-      "disk {} and {} {}",
-      count, worst->gap, packing[worst->a].id, worst->b.is_wall() ? "wall" : "disk",
-      worst->b.is_wall() ? packing[worst->b.wall_id()].id : packing[worst->b.disk_id()].id));
+  imported.warnings.push_back(
+      fmt::format("{} a gap or overlap above 1 % of the largest radius; the largest, {:.3g}, is between disk "
+                  "{} and {} {}",
+                  counted(count, "contact has", "contacts have"), worst->gap, packing[worst->a].id,
+                  worst->b.is_wall() ? "wall" : "disk",
+                  worst->b.is_wall() ? packing[worst->b.wall_id()].id : packing[worst->b.disk_id()].id));
 }
 
 }  // namespace indet

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 
 namespace indet {
@@ -36,9 +37,10 @@ class DumpIndex {
     for (const FrameHeader& frame : frames_) {
       if (frame.timestep == *timestep) return frame;
     }
-    throw InputError(fmt::format("{}: there is no frame of timestep {}; the file has {} ({} … {})", source_,
-                                 *timestep, frames_.size(), frames_.front().timestep,
-                                 frames_.back().timestep));
+    throw InputError(
+        fmt::format("{}: there is no frame of timestep {}; the file has {}, of timesteps {} … {}", source_,
+                    *timestep, counted(static_cast<std::int64_t>(frames_.size()), "frame"),
+                    frames_.front().timestep, frames_.back().timestep));
   }
 
  private:

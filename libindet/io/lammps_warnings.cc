@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "libindet/base/counted.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet {
@@ -70,25 +72,31 @@ void warn_of_atoms_outside(ImportedPacking& imported, const LammpsOptions& optio
     }
   }
   if (outside.empty()) return;
-  warn(imported, fmt::format("{}: {} atoms are outside the box or behind a wall, the first is atom {}",
-                             options.atoms.string(), outside.size(), packing[DiskId(*outside.begin())].id));
+  warn(imported,
+       fmt::format("{}: {} outside the box or behind a wall; the first is atom {}", options.atoms.string(),
+                   counted(static_cast<std::int64_t>(outside.size()), "atom is", "atoms are"),
+                   packing[DiskId(*outside.begin())].id));
 }
 
 void warn_of_contacts_without_force(ImportedPacking& imported, const LammpsOptions& options, int apart) {
   const Packing& packing = imported.packing;
   if (imported.duplicates > 0) {
-    warn(imported, fmt::format("{}: {} contacts are given twice with the same force; each was taken once",
-                               options.contacts.string(), imported.duplicates));
+    warn(imported,
+         fmt::format("{}: {} given twice with the same force, and taken once", options.contacts.string(),
+                     counted(imported.duplicates, "contact is", "contacts are")));
   }
   if (apart > 0) {
     warn(imported,
-         fmt::format("{} pairs neither touch nor transmit a force; they were left out (cutoff radius in "
-                     "the computes does the same)",
-                     apart));
+         fmt::format("{}: left out {}, which neither touch nor transmit a force (\"cutoff radius\" in the "
+                     "computes of LAMMPS would do the same)",
+                     options.contacts.string(), counted(apart, "pair of atoms", "pairs of atoms")));
   }
   const auto idle = std::count_if(packing.contacts.begin(), packing.contacts.end(),
                                   [](const Contact& c) { return c.R == 0 && c.T == 0; });
-  if (idle > 0) warn(imported, fmt::format("{} contacts touch, but transmit nothing; they were kept", idle));
+  if (idle > 0) {
+    warn(imported, fmt::format("{}: kept {}, which transmit no force", options.contacts.string(),
+                               counted(idle, "contact whose atoms touch", "contacts whose atoms touch")));
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 
 namespace indet {
@@ -127,8 +128,9 @@ Table::Table(std::string source, std::shared_ptr<const std::string> text, int he
 
 void Table::add_row(int line, std::vector<std::string_view> fields) {
   if (fields.size() != columns_.size()) {
-    throw InputError(fmt::format("{}:{}: {} fields, but there are {} columns ({})", source_, line,
-                                 fields.size(), columns_.size(), fmt::join(columns_, ", ")));
+    throw InputError(fmt::format("{}:{}: {}, but there are {} columns ({})", source_, line,
+                                 counted(static_cast<std::int64_t>(fields.size()), "field"), columns_.size(),
+                                 fmt::join(columns_, ", ")));
   }
   lines_.push_back(line);
   fields_.insert(fields_.end(), fields.begin(), fields.end());

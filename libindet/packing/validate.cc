@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 
@@ -63,8 +64,8 @@ Reason index_defect(const Packing& packing, const Contact& contact) {
                        packing.disk_count() - 1);
   }
   if (contact.b.is_wall() && contact.b.wall_id().value() >= packing.wall_count()) {
-    return fmt::format("body b is wall {}, but the scene has {} walls", contact.b.wall_id().value(),
-                       packing.wall_count());
+    return fmt::format("body b is wall {}, but the scene has {}", contact.b.wall_id().value(),
+                       counted(packing.wall_count(), "wall"));
   }
   if (!contact.b.is_wall() && contact.b.disk_id().value() >= packing.disk_count()) {
     return fmt::format("body b is disk {}, but the disks are 0 … {}", contact.b.code(),

@@ -44,8 +44,8 @@ enum class FieldSource : std::uint8_t {
 
 /// One field of the results, and what is told of it everywhere: in files, JSON, tables, tests. `group` and
 /// `name` are those of the HDF5 object, a dataset where the shape is not 1 × 1 and otherwise an attribute of
-/// `group`. `unit` is "1" for pure numbers and text, "mg" for residuals in the packing's unit of force, and
-/// "force" for the scene's.
+/// `group`. `unit` is "1" for pure numbers and text, "mg" for forces in the packing's unit of force, and
+/// "force" for those in the scene's.
 struct Field {
   const char* group;
   const char* name;
@@ -176,20 +176,21 @@ void visit_extremal(Part& r, Visit& visit) {
 
 template <class Part, class Visit>
 void visit_measures(Part& r, Visit& visit) {
-  const auto column = [&](const char* name, const char* meaning, FieldSource source, auto& value) {
-    visit(Field{"/ranges", name, "1", meaning, source, Extent::kContacts}, value);
+  const auto column = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                          auto& value) {
+    visit(Field{"/ranges", name, unit, meaning, source, Extent::kContacts}, value);
   };
-  column("delta_R", "local indeterminacy of the normal force, inf where unbounded", FieldSource::kAnswer,
-         r.delta_R);
-  column("delta_T", "local indeterminacy of the tangential force, inf where unbounded", FieldSource::kAnswer,
-         r.delta_T);
-  column("d_R", "global indeterminacy of the normal force, NaN where a state is missing", FieldSource::kState,
-         r.d_R);
-  column("d_T", "global indeterminacy of the tangential force, NaN where a state is missing",
+  column("delta_R", "mg", "local indeterminacy of the normal force, inf where unbounded",
+         FieldSource::kAnswer, r.delta_R);
+  column("delta_T", "mg", "local indeterminacy of the tangential force, inf where unbounded",
+         FieldSource::kAnswer, r.delta_T);
+  column("d_R", "mg", "global indeterminacy of the normal force, NaN where a state is missing",
+         FieldSource::kState, r.d_R);
+  column("d_T", "mg", "global indeterminacy of the tangential force, NaN where a state is missing",
          FieldSource::kState, r.d_T);
-  column("R_star", "place of the simulated normal force in its range, NaN if unknown", FieldSource::kAnswer,
-         r.R_star);
-  column("T_star", "place of the simulated tangential force in its range, NaN if unknown",
+  column("R_star", "1", "place of the simulated normal force in its range, NaN if unknown",
+         FieldSource::kAnswer, r.R_star);
+  column("T_star", "1", "place of the simulated tangential force in its range, NaN if unknown",
          FieldSource::kAnswer, r.T_star);
   visit(Field{"/extremal", "norm", "force", "Euclidean norm of the state", FieldSource::kState,
               Extent::kStates},

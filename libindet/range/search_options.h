@@ -16,9 +16,9 @@ struct SearchOptions {
   LpOptions lp;
   int threads = 1;
   /// Take the state of smallest `weight` on each optimal face, so that every method gives the same one; else
-  /// the vertex that the solver lands on.
+  /// the state that the solver happens to find.
   bool canonical_states = true;
-  /// Tell for each objective also the vertex that the solver lands on (Extremum::solver_vertex).
+  /// Tell for each objective also the state that the solver happens to find (Extremum::solver_vertex).
   bool solver_states = false;
   /// Called now and then with the numbers of objectives settled and asked for; false stops the search
   /// (Interrupted).

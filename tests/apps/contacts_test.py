@@ -61,7 +61,7 @@ class Contacts(program.ProgramTest):
     def test_few_contacts_tell_no_interval(self):
         self.assertIsNone(self.analyze("--contacts", "sample:3")["sample"]["delta_R"]["low"])
         text = self.run_indet("analyze", "p.h5", "--contacts", "sample:3", "-o", "r.h5").stdout
-        self.assertRegex(text, r"δR +mean [\d.]+ in the sample, no interval \(--contacts sample:6 or more")
+        self.assertRegex(text, r"δR +mean [\d.]+ in the sample; no confidence interval \(--contacts sample:6 or more")
 
     def test_seeds_draw_different_contacts(self):
         drawn = set()
@@ -84,8 +84,8 @@ class Contacts(program.ProgramTest):
         self.run_indet("export", "r.h5", "-o", "r.csv")
         self.assertEqual((self.folder / "r.csv").read_text().count("not requested"), 3 * 4)
         text = self.run_indet("analyze", "p.h5", "--contacts", "sample:2", "-o", "r.h5").stdout
-        self.assertIn("2 of 5 contacts were asked for", text)
-        self.assertIn("all 5 contacts, from 2 of them drawn with seed 1 (95 %)", text)
+        self.assertIn("asked for: 2 of 5 contacts", text)
+        self.assertIn("estimate for all 5 contacts, from 2 drawn at random (seed 1), with 95 % confidence", text)
         self.assertNotIn("nan", text)
 
     def test_nonsense_is_refused(self):

@@ -106,7 +106,7 @@ class Nothing(program.ProgramTest):
         self.write("p", {"disks.csv": "id,x,y,radius,mass\n7,0,0,1,1\n", "contacts.csv": "a,b\n",
                          "scene.toml": "gravity = [0, 0]\nforce_unit = 1\n"})
         done = self.run_indet("import", "--format", "csv", "p", "-o", "p.h5")
-        self.assertRegex(done.stdout, r"(?m)^force residual      0.00e\+00 mg$")
+        self.assertRegex(done.stdout, r"(?m)^largest net force   0.00e\+00 mg$")
         self.assertIn("loose disks         1, the first is disk 7", done.stdout)
         done = self.run_indet("analyze", "p.h5")
         self.assertNotIn("nan", done.stdout)

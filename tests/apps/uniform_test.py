@@ -92,9 +92,9 @@ class Uniform(program.ProgramTest):
 
     def test_the_text_says_what_was_found(self):
         text = self.run_indet("sample", self.packing(program.groove()), "--method", "uniform", "-o", "s.h5").stdout
-        for part in ("dimension 1, 1 independent block", "uniform: r = ", "converged after", "written to s.h5"):
+        for part in ("dimension 1, 1 independent block", "radius r = ", "converged after", "written to s.h5"):
             self.assertIn(part, text)
-        self.assertIn("uniform distribution, dimension 1, converged", self.run_indet("inspect", "s.h5").stdout)
+        self.assertIn("of the uniform distribution, dimension 1, converged", self.run_indet("inspect", "s.h5").stdout)
 
     def test_a_limit_is_5_and_said(self):
         packing = self.packing(program.groove())
@@ -160,7 +160,7 @@ class Uniform(program.ProgramTest):
                                           ("perturb", ["--volume-sweeps", "99"], "--method uniform")]:
             with self.subTest(arguments):
                 done = self.run_indet("sample", packing, "--method", method, *arguments, "-o", "s.h5", status=2)
-                self.assertIn(f"{arguments[0]} is of {reader}", done.stderr)
+                self.assertIn(f"{arguments[0]} has no effect without {reader}", done.stderr)
                 self.assertEqual(self.files(), before)
 
     def test_stored_configurations_read_back(self):

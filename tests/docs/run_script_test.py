@@ -20,7 +20,7 @@ class RunScript(unittest.TestCase):
                                   check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
             for part in ["rank 657, nullity 95", "polytope of contact states: bounded",
-                         "1504 objectives: 1504 certified, 0 imprecise, 0 failed", " 0 contradictions", "16 packings: 16 computed", "report.html"]:
+                         "1504 extrema: 1504 certified, 0 imprecise, 0 failed", " 0 contradictions", "16 packings: 16 computed", "report.html"]:
                 self.assertIn(part, done.stdout)
             files = re.findall(r"/\S+\.(?:h5|svg)(?=\s)", done.stdout.partition("results:")[2].partition("== ensemble")[0])
             self.assertEqual(len(files), 3)

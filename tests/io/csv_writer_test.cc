@@ -72,7 +72,7 @@ TEST(CsvWriter, ARealPackingReadsBackToTheSamePacking) {
   expect_same(read_csv_scene(folder.path()).packing, packing);
 }
 
-TEST(CsvWriter, TheTableHasARowAContact) {
+TEST(CsvWriter, TheTableHasARowAContactAndForcesInOneUnit) {
   const test::TemporaryFolder folder;
   const Packing packing = test::sample_packing();
   const ForceRanges ranges = test::sample_ranges();
@@ -82,15 +82,17 @@ TEST(CsvWriter, TheTableHasARowAContact) {
   EXPECT_EQ(table.integer(2, "contact"), 2);
   EXPECT_EQ(table.integer(2, "a"), 10);
   EXPECT_EQ(table.integer(2, "b"), -10);
-  EXPECT_EQ(table.number(2, "R"), 2004.5);
-  EXPECT_EQ(table.number(2, "T"), 2005.5);
-  EXPECT_EQ(table.text(2, "R_max"), "inf");
-  EXPECT_EQ(table.number(3, "R_min"), 130);
-  EXPECT_TRUE(table.is_empty(3, "T_min"));
+  const double mg = packing.force_unit();
+  ASSERT_NE(mg, 1);
+  EXPECT_EQ(table.number(2, "R_mg"), 2004.5 / mg);
+  EXPECT_EQ(table.number(2, "T_mg"), 2005.5 / mg);
+  EXPECT_EQ(table.text(2, "R_max_mg"), "inf");
+  EXPECT_EQ(table.number(3, "R_min_mg"), 130 / mg);
+  EXPECT_TRUE(table.is_empty(3, "T_min_mg"));
   EXPECT_EQ(table.text(3, "T_min_outcome"), "optimal");
-  EXPECT_EQ(table.number(4, "delta_T"), 10);
+  EXPECT_EQ(table.number(4, "delta_T_mg"), 10);
   write_contact_table(folder / "p.csv", packing, packing.simulated_forces().value(), nullptr);
-  EXPECT_FALSE(read_csv(folder / "p.csv").has("R_max"));
+  EXPECT_FALSE(read_csv(folder / "p.csv").has("R_max_mg"));
 }
 
 TEST(CsvWriter, AFolderThatCannotBeMadeIsNamed) {

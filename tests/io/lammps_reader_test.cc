@@ -221,8 +221,8 @@ TEST(LammpsReader, TheLastFrameIsReadUnlessATimestepIsGiven) {
   EXPECT_EQ(read_lammps(options).packing.disks[0].mass, 99);
   options.timestep = 7;
   EXPECT_THAT([&] { read_lammps(options); },
-              ThrowsMessage<InputError>(
-                  HasSubstr("there is no frame of timestep 7; the file has 2 (500000 … 600000)")));
+              ThrowsMessage<InputError>(HasSubstr(
+                  "there is no frame of timestep 7; the file has 2 frames, of timesteps 500000 … 600000")));
 }
 
 TEST(LammpsReader, EqualDuplicatesAreTakenOnce) {
@@ -249,7 +249,7 @@ TEST(LammpsReader, PairsThatNeitherTouchNorPushAreLeftOut) {
   dumps.contacts.head[3] = "343";
   const ImportedPacking imported = dumps.read();
   EXPECT_EQ(imported.packing.contact_count(), 376);
-  EXPECT_THAT(imported.warnings, Contains(HasSubstr("1 pairs neither touch")));
+  EXPECT_THAT(imported.warnings, Contains(HasSubstr("left out 1 pair of atoms, which neither touch")));
 }
 
 TEST(LammpsReader, AtomsBehindAWallAreReported) {
@@ -259,7 +259,7 @@ TEST(LammpsReader, AtomsBehindAWallAreReported) {
   dumps.contacts.head[3] = std::to_string(dumps.contacts.rows.size());
   const ImportedPacking imported = dumps.read();
   EXPECT_THAT(imported.warnings,
-              Contains(HasSubstr("outside the box or behind a wall, the first is atom 220")));
+              Contains(HasSubstr("1 atom is outside the box or behind a wall; the first is atom 220")));
   const BalanceReport report = report_balance(imported);
   EXPECT_EQ(report.loose_disks, 1);
   EXPECT_EQ(imported.packing[report.first_loose].id, 220);

@@ -31,9 +31,10 @@ struct MemberResult {
   Packing packing;
   std::optional<SimulationRecord> simulation;
   ForceRanges ranges;
-  Eigen::VectorXd solver_d_R, solver_d_T;  ///< [24] with the vertices that the solver lands on; or empty.
-  ExtremalForces extremal;                 ///< Of the canonical states.
-  ExtremalForces solver_extremal;          ///< Of the vertices that the solver lands on; or empty.
+  Eigen::VectorXd solver_d_R,
+      solver_d_T;                  ///< [24] with the states that the solver happens to find; or empty.
+  ExtremalForces extremal;         ///< Of the canonical states.
+  ExtremalForces solver_extremal;  ///< Of the states that the solver happens to find; or empty.
   std::optional<SamplingRecord> sampling;
   std::optional<UniformResult> uniform;
   std::map<std::string, double> seconds;

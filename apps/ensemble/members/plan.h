@@ -24,8 +24,9 @@ struct EnsembleConfig {
   sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
   /// Packings of each protocol that are sampled uniformly too: those of the first seeds, the first files.
   std::int64_t uniform_seeds = 60;
-  UniformOptions uniform;     ///< Its seed is that of each packing.
-  bool solver_states = true;  ///< Also dR and dT of the vertices that the solver lands on, as in the paper.
+  UniformOptions uniform;  ///< Its seed is that of each packing.
+  bool solver_states =
+      true;  ///< Also dR and dT of the states that the solver happens to find, as in the paper.
 };
 
 /// One packing of an ensemble.

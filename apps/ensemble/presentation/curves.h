@@ -42,7 +42,7 @@ inline const Protocols kMd = {sim::Protocol::kMd1, sim::Protocol::kMd2};
 /// "33 ± 1.4".
 std::string paper_radius(const Family& family);
 
-/// Two columns of the runs of a protocol, one point a packing.
+/// Two columns of the runs of a protocol, one point per packing.
 Series scatter(const EnsembleTables& tables, const Family& family, const char* x, const char* y);
 
 /// Values and how their density is drawn.

@@ -25,7 +25,8 @@ using sim::Protocol;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kCanonical =
     "where many states attain an optimum, the one of smallest total normal force";
-constexpr const char* kSolver = "where many states attain an optimum, the vertex that the solver lands on";
+constexpr const char* kSolver =
+    "where many states attain an optimum, the state that the solver happens to find";
 
 /// A disk of unit weight in a groove of two walls whose normals make `angle` with the vertical (Fig. 2 of the
 /// paper).
@@ -131,7 +132,7 @@ std::vector<Figure> dimensions(const EnsembleTables& tables) {
   Figure first{
       .id = "fig06a",
       .title = "Fig. 6a: dimension of the set of contact states",
-      .caption = "dim F against the number of contacts M, one point a packing. The line is 2M − 3N.",
+      .caption = "dim F against the number of contacts M, one point per packing. The line is 2M − 3N.",
       .claim = "All points lie on the line or at most 3 above it.",
       .finding =
           fmt::format("{} of {} packings are outside of 2M − 3N … 2M − 3N + 3; the largest excess is {:g}.",

@@ -1,5 +1,6 @@
 #include "apps/ensemble/presentation/gnuplot.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -92,6 +93,8 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script)
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  // It warns of every curve that has no point in the panel. Why it fails can be seen by running the script.
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   std::string program = "gnuplot";
   std::string argument = script;
   std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
@@ -101,7 +104,8 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script)
   if (error != 0) throw LibraryError("gnuplot cannot be run; install gnuplot-nox");
   int status = 0;
   waitpid(child, &status, 0);
-  if (status != 0) throw LibraryError(fmt::format("gnuplot failed on {}", (folder / script).string()));
+  if (status != 0)
+    throw LibraryError(fmt::format("gnuplot failed: run it on {} to see why", (folder / script).string()));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "apps/ensemble/presentation/figures.h"
 #include "apps/ensemble/presentation/gnuplot.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
+#include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/io/whole_file.h"
 
@@ -118,7 +119,7 @@ std::string table_of_runs(const EnsembleTables& tables) {
 
 std::string table_of_times(const EnsembleTables& tables) {
   std::string text =
-      "<table><tr><th>stage</th><th>seconds a packing</th><th>longest</th><th>in all</th></tr>\n";
+      "<table><tr><th>stage</th><th>seconds per packing</th><th>longest</th><th>in all</th></tr>\n";
   for (const auto& column : tables.timings.columns()) {
     double sum = 0;
     double longest = 0;
@@ -200,12 +201,13 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
   html += kStyle;
   html += "</style></head><body>\n<h1>Force indeterminacy of an ensemble of packings</h1>\n";
   html += fmt::format(
-      "<p>{} packings, {} contacts. Forces and distances are in units of mg, the mean weight of a disk. ± is "
-      "one "
-      "standard error over the seeds. The paper is S. McNamara and H. J. Herrmann, Phys. Rev. E 70, 061303 "
-      "(2004), "
-      "N = 95, μ = 0.3, 60 seeds; numbers in brackets are its equations.</p>\n",
-      runs.rows(), contents.tables.contacts.rows());
+      "<p>{}, {}. Forces and distances are in units of mg, the mean weight of a disk. ± is one standard "
+      "error "
+      "over the seeds. The paper is S. McNamara and H. J. Herrmann, Phys. Rev. E 70, 061303 (2004), N = 95, "
+      "μ = "
+      "0.3, 60 seeds; numbers in brackets are its equations.</p>\n",
+      counted(static_cast<std::int64_t>(runs.rows()), "packing"),
+      counted(static_cast<std::int64_t>(contents.tables.contacts.rows()), "contact"));
   html += "<h2>What was run (Fig. 4)</h2>\n" + table_of_runs(contents.tables);
   const std::vector<Comparison> comparison = compare_with_paper(contents.tables);
   write_whole_file(figures_folder / "comparison.csv", csv_of(comparison));

@@ -45,7 +45,7 @@ Figure radii(const EnsembleTables& tables, const Samples& samples) {
       .title = "Radius and centre of both samplings",
       .caption =
           "Left: the radius r [38] of perturb-and-resolve against that of the uniform distribution over the "
-          "same polytope, one point a packing. Right: the distance of the two centres, the noise of "
+          "same polytope, one point per packing. Right: the distance of the two centres, the noise of "
           "both means taken away, against the uniform r. Dotted: equal.",
       .claim =
           fmt::format("r in mg: {}. Whether perturb-and-resolve weights all regions rightly is left open.",

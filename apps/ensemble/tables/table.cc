@@ -111,8 +111,10 @@ std::vector<Column> contact_columns() {
   columns.push_back(FlatTable::real("delta_T", "1", "local indeterminacy of the tangential force"));
   columns.push_back(FlatTable::real("d_R", "1", "global indeterminacy of the normal force"));
   columns.push_back(FlatTable::real("d_T", "1", "global indeterminacy of the tangential force"));
-  columns.push_back(FlatTable::real("solver_d_R", "1", "d_R with the vertices that the solver lands on"));
-  columns.push_back(FlatTable::real("solver_d_T", "1", "d_T with the vertices that the solver lands on"));
+  columns.push_back(
+      FlatTable::real("solver_d_R", "1", "d_R with the states that the solver happens to find"));
+  columns.push_back(
+      FlatTable::real("solver_d_T", "1", "d_T with the states that the solver happens to find"));
   columns.push_back(FlatTable::real("R_star", "1", "place of R in its range"));
   columns.push_back(FlatTable::real("T_star", "1", "place of T in its range"));
   for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
@@ -292,11 +294,12 @@ class Collector {
 EnsembleTables::EnsembleTables()
     : runs(run_columns()),
       contacts(contact_columns()),
-      extremal({FlatTable::integer("run", "row of the packing in /table/runs"),
-                FlatTable::integer("choice", "0: canonical states, 1: vertices that the solver lands on"),
-                FlatTable::integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),
-                FlatTable::integer("bin", "R in [bin, bin+1) mg"),
-                FlatTable::integer("count", "contacts with such a force")}),
+      extremal(
+          {FlatTable::integer("run", "row of the packing in /table/runs"),
+           FlatTable::integer("choice", "0: canonical states, 1: states that the solver happens to find"),
+           FlatTable::integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),
+           FlatTable::integer("bin", "R in [bin, bin+1) mg"),
+           FlatTable::integer("count", "contacts with such a force")}),
       sampled(sampled_columns()),
       timings(timing_columns()) {}
 
