@@ -18,6 +18,7 @@
 
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "libindet/base/error.h"
+#include "libindet/io/bias_file.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/sampling_file.h"
@@ -117,6 +118,8 @@ Hdf5File open_on_trial(const std::filesystem::path& path) {
     attempt([&] { read_packing(file); });
     attempt([&] { read_ranges(file); });
     attempt([&] { read_sampling(file); });
+    attempt([&] { read_sampling(file, "/uniform"); });
+    attempt([&] { read_bias(file); });
     attempt([&] { read_trajectory(file); });
     attempt([&] { read_checkpoint(file); });
     attempt([&] { read_ensemble(file); });

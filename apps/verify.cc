@@ -3,34 +3,131 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/packing_input.h"
+#include "libindet/io/bias_file.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
+#include "libindet/io/sampling_file.h"
+#include "libindet/verify/bias_check.h"
+#include "libindet/verify/comparisons.h"
 #include "libindet/verify/exact_check.h"
+#include "libindet/verify/samples_check.h"
 
 namespace indet::app {
 namespace {
 
-/// What contradicts what in the file: its digests first, then its results.
-Verification verify_file(const Hdf5File& file, const Context& context) {
-  Verification result;
-  const Digests digests = compute_digests(file);
-  const Packing packing = read_packing(file);
-  if (has_ranges(file)) result = verify_ranges(packing, read_ranges(file), context.progress());
-  ++result.checks;
-  if (!digests.match()) {
-    ++result.contradictions;
-    result.messages.insert(result.messages.begin(),
-                           "content_sha256: some number is not the one that was written");
+/// A part of the file and what its check found.
+struct Part {
+  std::string title;
+  Verification found;
+};
+
+Verification check_digests(const Hdf5File& file) {
+  Comparisons compare;
+  compare.require(compute_digests(file).match(),
+                  "content_sha256: some number is not the one that was written");
+  // Groups of which nothing is computed again.
+  std::string accounts;
+  for (const char* group : {"/simulation", "/trajectory", "/ensemble"}) {
+    if (file.has(group)) accounts += fmt::format("{}{}", accounts.empty() ? "" : ", ", group);
   }
-  return result;
+  if (!accounts.empty()) compare.leave_unchecked(accounts + " (simulations are not repeated)");
+  return compare.result();
+}
+
+/// Without a sample the outcome says why, and has to agree with the ranges.
+Verification check_outcome(const std::string& outcome, const SamplingRecord* uniform,
+                           const ForceRanges* ranges) {
+  Comparisons compare("/uniform");
+  if (uniform != nullptr) {
+    const auto converged = uniform->numbers.find("converged");
+    const bool has_converged = converged != uniform->numbers.end() && converged->second == 1;
+    compare.require(outcome == (has_converged ? "converged" : "limit"), "outcome: \"{}\" is stored", outcome);
+  } else if (ranges != nullptr) {
+    compare.require(outcome == to_string(ranges->status), "outcome: \"{}\" is stored, but F is {}", outcome,
+                    to_string(ranges->status));
+  }
+  return compare.result();
+}
+
+std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
+  std::vector<Part> parts = {{"file", check_digests(file)}};
+  const Packing packing = read_packing(file);
+  std::optional<ForceRanges> ranges;
+  std::optional<SamplingRecord> sampling;
+  std::optional<SamplingRecord> uniform;
+  if (has_ranges(file)) {
+    ranges = read_ranges(file);
+    parts.push_back({"force ranges", verify_ranges(packing, *ranges, context.progress())});
+  }
+  const ForceRanges* known = ranges ? &*ranges : nullptr;
+  const auto check_samples = [&](const std::string& group, std::optional<SamplingRecord>& record) {
+    record = read_sampling(file, group);
+    parts.push_back({group, verify_samples(packing, *record, group, known)});
+  };
+  if (file.has("/sampling")) check_samples("/sampling", sampling);
+  if (file.has("/uniform/center")) check_samples("/uniform", uniform);
+  if (file.has("/uniform")) {
+    parts.push_back({"/uniform", check_outcome(file.string_attribute("/uniform", "outcome"),
+                                               uniform ? &*uniform : nullptr, known)});
+  }
+  if (const std::optional<BiasRecord> bias = read_bias(file)) {
+    const SamplingRecord none;
+    parts.push_back({"/bias", verify_bias(packing, *bias, sampling ? *sampling : none,
+                                          uniform ? *uniform : none, known)});
+  }
+  return parts;
+}
+
+/// All parts together; what is left names its part.
+Verification total_of(const std::vector<Part>& parts) {
+  Verification total;
+  for (const auto& [title, found] : parts) {
+    total.checks += found.checks;
+    total.contradictions += found.contradictions;
+    total.states += found.states;
+    total.optima += found.optima;
+    total.worst_imbalance = std::fmax(total.worst_imbalance, found.worst_imbalance);
+    total.worst_violation = std::fmax(total.worst_violation, found.worst_violation);
+    total.worst_optimality_gap = std::fmax(total.worst_optimality_gap, found.worst_optimality_gap);
+    total.messages.insert(total.messages.end(), found.messages.begin(), found.messages.end());
+    for (const std::string& text : found.unchecked) total.unchecked.push_back(title + ": " + text);
+    for (const std::string& text : found.remarks) total.remarks.push_back(title + ": " + text);
+    for (const std::string& text : found.unsolved) total.unsolved.push_back(title + ": " + text);
+  }
+  return total;
+}
+
+void print(const std::string& path, const std::vector<Part>& parts, const Verification& total) {
+  fmt::print("{}: {}, {}\n", path, counted(total.checks, "check"),
+             counted(total.contradictions, "contradiction"));
+  for (const std::string& message : total.messages) fmt::print("  {}\n", message);
+  for (const auto& [title, found] : parts) {
+    if (found.states == 0) continue;
+    fmt::print("{}: {}, imbalance up to {:.1e} mg, contact conditions violated by up to {:.1e} mg\n", title,
+               counted(found.states, title == "force ranges" ? "extremal state" : "state"),
+               found.worst_imbalance, found.worst_violation);
+    if (found.optima > 0)
+      fmt::print("{}: {}, optimal but for gaps up to {:.1e}\n", title,
+                 counted(found.optima, "certified value"), found.worst_optimality_gap);
+  }
+  if (total.states == 0) fmt::print("there are no contact states in the file\n");
+  const auto list = [](const char* heading, const std::vector<std::string>& texts) {
+    if (!texts.empty()) fmt::print("{}:\n", heading);
+    for (const std::string& text : texts) fmt::print("  {}\n", text);
+  };
+  list("not solved, or uncertain, as the file itself says", total.unsolved);
+  for (const std::string& text : total.remarks) fmt::print("{}\n", text);
+  list("not computed again, guarded by the digest alone", total.unchecked);
 }
 
 struct Options {
@@ -62,9 +159,9 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
         "exact arithmetic: {} proven, {} repaired, {} refuted, {} undecided; {} outside of their bounds",
         check.proven, check.repaired, check.refuted, check.undecided, check.contradictions);
   }
-  fmt::print("; {} pivots ({:.1f} s)\n", check.pivots, seconds);
+  fmt::print("; {} ({:.1f} s)\n", counted(check.pivots, "pivot"), seconds);
   for (const std::string& message : check.messages) fmt::print("  {}\n", message);
-  if (ranges.status != PolytopeStatus::kEmpty)
+  if (check.proven + check.repaired > 0)
     fmt::print("worst |stored − exact|: {:.1e} mg, of the certified {:.1e} mg\n", check.worst_error,
                check.worst_certified_error);
 }
@@ -72,7 +169,8 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
 int run(const Options& options, const Context& context) {
   const std::string& path = options.file;
   const Hdf5File file = open_packing(path);
-  const Verification result = verify_file(file, context);
+  const std::vector<Part> parts = verify_file(file, context);
+  const Verification result = total_of(parts);
   std::optional<ExactCheck> check;
   std::optional<ForceRanges> ranges;
   double seconds = 0;
@@ -85,35 +183,37 @@ int run(const Options& options, const Context& context) {
     check = check_exactly(read_packing(file), *ranges, exact);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
+  const bool passed = result.passed() && (!check || check->passed());
+  const bool is_certain = passed && result.unsolved.empty();
   if (context.json) {
     nlohmann::json json{{"file", path},
-                        {"passed", result.passed() && (!check || check->passed())},
+                        {"passed", passed},
                         {"checks", result.checks},
                         {"contradictions", result.contradictions},
                         {"messages", result.messages},
+                        {"states", result.states},
                         {"worst_imbalance", result.worst_imbalance},
                         {"worst_violation", result.worst_violation},
-                        {"worst_optimality_gap", result.worst_optimality_gap}};
+                        {"optima", result.optima},
+                        {"worst_optimality_gap", result.worst_optimality_gap},
+                        {"not_solved", result.unsolved},
+                        {"remarks", result.remarks},
+                        {"not_checked", result.unchecked}};
     if (check) json["exact"] = to_json(*check, seconds);
     std::cout << json.dump(2) << '\n';
-  } else if (!context.quiet || !result.passed() || (check && !check->passed())) {
-    fmt::print("{}: {} checks, {} contradictions\n", path, result.checks, result.contradictions);
-    for (const std::string& message : result.messages) fmt::print("  {}\n", message);
-    if (result.passed()) {
-      fmt::print(
-          "worst imbalance {:.1e} mg, worst contact violation {:.1e} mg, worst optimality gap {:.1e}\n",
-          result.worst_imbalance, result.worst_violation, result.worst_optimality_gap);
-    }
+  } else if (!context.quiet || !is_certain) {
+    print(path, parts, result);
     if (check) print_exact(*check, *ranges, seconds);
   }
-  return result.passed() && (!check || check->passed()) ? kDone : kUncertain;
+  return is_certain ? kDone : kUncertain;
 }
 
 }  // namespace
 
 Command add_verify(CLI::App& root) {
-  CLI::App* command = root.add_subcommand(
-      "verify", "Re-check every stored result of a file from its packing alone, by other means than analyze");
+  CLI::App* command = root.add_subcommand("verify",
+                                          "Re-check the ranges and samples of a file from its packing alone, "
+                                          "by other means than those that made them");
   const auto options = std::make_shared<Options>();
   command->add_option("file", options->file, "The file to check")->required()->type_name("FILE.h5");
   command->add_flag(

@@ -36,6 +36,9 @@ std::map<std::string, double> numbers_of(const ForcePolytope& polytope, const Un
                   {"bulk_ess", sample.bulk},
                   {"tail_ess", sample.tail},
                   {"slowest", sample.slowest},
+                  {"norm_rhat", sample.norm.rhat},
+                  {"norm_bulk_ess", sample.norm.bulk},
+                  {"norm_tail_ess", sample.norm.tail},
                   {"worst_slack", units.weights(InternalForce(sample.worst_slack)).value()},
                   {"inscribed_radius", units.weights(InternalForce(sample.ball.radius)).value()}});
   return numbers;

@@ -100,7 +100,7 @@ inline constexpr double kRayEntry = 1e-9;
 inline constexpr double kPrimalResidual = 1e-10;
 inline constexpr double kDualResidual = 1e-9;
 
-/// A range up to this wide (mg; among samples internal unit) is a point: no force has a relative position R*,
+/// A range up to this wide (internal unit) is a point: no force has a relative position R*,
 /// T* in it.
 inline constexpr double kPointRange = 1e-9;
 
@@ -220,6 +220,35 @@ inline constexpr double kLastBin = 1e-12;
 /// Recomputed and stored numbers may differ by this, relative to max(1, |number|).
 inline constexpr double kAgreement = 1e-12;
 
+/// The same for a sum over many states, for diagnostics of chains (sums over products of sums), for the mean
+/// square of ‖F‖ (relative), and for a p-value (relative).
+inline constexpr double kSumAgreement = 1e-9;
+inline constexpr double kDiagnosticAgreement = 1e-8;
+inline constexpr double kSizeAgreement = 1e-11;
+inline constexpr double kProbabilityAgreement = 1e-7;
+
+/// Room for rounding in inequalities between stored numbers, relative to the larger of them.
+inline constexpr double kRoundingRoom = 1e-9;
+
+/// A number that is a count but for rounding (a percentage of a known number of states) is whole to this.
+inline constexpr double kWholeCount = 1e-6;
+
+/// A solution of perturb-and-resolve balances, and lies in the cones, to this (internal unit).
+inline constexpr double kAcceptedSolution = 1e-9;
+
+/// Forces that vary less than this among samples (relative to the largest force) have an order that rounding
+/// decides: ranks are not compared.
+inline constexpr double kRankableDeviation = 1e-6;
+
+/// The affine hull of F, as the half-planes without slack at a point make it: slacks and lengths (relative to
+/// the largest force) up to the first are rounding, above the second they are not; between them nothing is
+/// concluded.
+inline constexpr double kHullRounding = 1e-12;
+inline constexpr double kHullClear = 1e-9;
+
+/// A force that moves at most this far along every unit direction within F is determined.
+inline constexpr double kDeterminedForce = 1e-9;
+
 /// A half-plane with up to this much slack (relative to the largest force) is tight at a state.
 inline constexpr double kTightHalfPlane = 1e-9;
 
@@ -232,9 +261,9 @@ inline constexpr double kOptimalityGap = 1e-9;
 inline constexpr double kResistedMotion = 1e-9;
 inline constexpr double kStoredRay = 1e-9;
 
-/// Singular directions of the oracle's contact matrix below this, relative to the largest pivot, are the
+/// Singular directions of verify's own contact matrix below this, relative to the largest pivot, are the
 /// kernel.
-inline constexpr double kOracleRank = 1e-12;
+inline constexpr double kRebuiltRank = 1e-12;
 
 /// Nonnegative least squares: ends when no gradient exceeds this, relative to 1 + ‖b‖; a coefficient up to
 /// kPassiveZero leaves the passive set.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "libindet/base/error.h"
 
 namespace indet {
@@ -38,6 +40,55 @@ void write_components(Hdf5File& file, const ComponentRecord& record, const std::
     write_columns(file, group + "/covariance", record.covariance,
                   {"force2", "covariances of R and T of each contact in turn"});
   }
+  if (record.percentile_R.size() > 0) {
+    file.write(group + "/percentile_R", span_of(record.percentile_R),
+               {static_cast<std::size_t>(record.percentile_R.size())},
+               {"1", "percentage of the samples with a smaller R than the simulated one"});
+  }
+}
+
+Eigen::VectorXd read_vector(const Hdf5File& file, const std::string& path) {
+  const std::vector<double> values = file.read_doubles(path, file.shape(path, 1));
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// The rows of a dataset as columns of a matrix.
+Eigen::MatrixXd read_columns(const Hdf5File& file, const std::string& path) {
+  const Shape shape = file.shape(path, 2);
+  const std::vector<double> values = file.read_doubles(path, shape);
+  return Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(shape[1]),
+                                           static_cast<Eigen::Index>(shape[0]));
+}
+
+ComponentRecord read_components(const Hdf5File& file, const std::string& group) {
+  ComponentRecord record;
+  record.deviation = read_vector(file, group + "/deviation");
+  record.quantile_levels = read_vector(file, group + "/quantile_levels");
+  record.quantiles = read_columns(file, group + "/quantiles").transpose();
+  record.rhat = read_vector(file, group + "/rhat");
+  record.bulk = read_vector(file, group + "/bulk_ess");
+  record.tail = read_vector(file, group + "/tail_ess");
+  const Eigen::Index count = record.deviation.size();
+  record.states.resize(count, 0);
+  if (file.has(group + "/states")) record.states = read_columns(file, group + "/states");
+  if (file.has(group + "/percentile_R")) record.percentile_R = read_vector(file, group + "/percentile_R");
+  if (file.has(group + "/covariance")) record.covariance = read_columns(file, group + "/covariance");
+  const auto require = [&](bool fits, const char* name) {
+    if (!fits)
+      throw Hdf5ReadError(
+          fmt::format("{}: {}/{} does not fit {} components", file.path().string(), group, name, count));
+  };
+  require(record.quantiles.rows() == count && record.quantiles.cols() == record.quantile_levels.size(),
+          "quantiles");
+  require(record.rhat.size() == count, "rhat");
+  require(record.bulk.size() == count, "bulk_ess");
+  require(record.tail.size() == count, "tail_ess");
+  require(record.states.rows() == count, "states");
+  require(record.covariance.size() == 0 ||
+              (record.covariance.rows() == count && record.covariance.cols() == count),
+          "covariance");
+  require(record.percentile_R.size() == 0 || 2 * record.percentile_R.size() == count, "percentile_R");
+  return record;
 }
 
 }  // namespace
@@ -62,13 +113,14 @@ void write_sampling(const std::filesystem::path& path, const Packing& packing, c
   seal(file);
 }
 
-SamplingRecord read_sampling(const Hdf5File& file) {
-  if (!file.has("/sampling")) throw InputError(fmt::format("{} has no samples", file.path().string()));
+SamplingRecord read_sampling(const Hdf5File& file, const std::string& group) {
+  if (!file.has(group + "/center"))
+    throw InputError(fmt::format("{} has no samples in {}", file.path().string(), group));
   SamplingRecord record;
-  record.method = file.string_attribute("/sampling", "method");
-  record.numbers = file.number_attributes("/sampling");
-  const std::vector<double> center = file.read_doubles("/sampling/center", file.shape("/sampling/center", 1));
-  record.center = Eigen::Map<const Eigen::VectorXd>(center.data(), static_cast<Eigen::Index>(center.size()));
+  record.method = file.string_attribute(group, "method");
+  record.numbers = file.number_attributes(group);
+  record.center = read_vector(file, group + "/center");
+  if (file.has(group + "/deviation")) record.components = read_components(file, group);
   return record;
 }
 

@@ -19,6 +19,7 @@ struct ComponentRecord {
   Eigen::VectorXd rhat, bulk, tail;  ///< 2M; NaN where a component is determined
   Eigen::MatrixXd states;            ///< 2M × K: some states, in the scene's units; K may be 0
   Eigen::MatrixXd covariance;        ///< 2M × 2M, in squares of the scene's units; may be empty
+  Eigen::VectorXd percentile_R;  ///< M: percentage of samples with a smaller R than simulated; may be empty
 };
 
 /// /sampling: the centre of an ensemble of contact states (R_1, T_1, …), in the scene's units, and numbers
@@ -27,7 +28,7 @@ struct SamplingRecord {
   std::string method;
   Eigen::VectorXd center;
   std::map<std::string, double> numbers;
-  std::optional<ComponentRecord> components;  ///< written, and not read back
+  std::optional<ComponentRecord> components;
 };
 
 /// Writes the packing and its /sampling.
@@ -38,7 +39,7 @@ void write_sampling(const std::filesystem::path& path, const Packing& packing, c
 void write_sampling_part(Hdf5File& file, const SamplingRecord& record,
                          const std::string& group = "/sampling");
 
-/// Throws InputError if the file has no /sampling.
-SamplingRecord read_sampling(const Hdf5File& file);
+/// Throws InputError if the file has no such group, or tables in it that do not fit each other.
+SamplingRecord read_sampling(const Hdf5File& file, const std::string& group = "/sampling");
 
 }  // namespace indet

@@ -14,9 +14,9 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Where the simulated force lies between minimum (0) and maximum (1) [39].
-double relative_position(double simulated, double minimum, double maximum, double force_unit) {
+double relative_position(double simulated, double minimum, double maximum, double internal_unit) {
   const double width = maximum - minimum;
-  if (!std::isfinite(width) || !(width > tolerance::kPointRange * force_unit)) return kNaN;
+  if (!std::isfinite(width) || !(width > tolerance::kPointRange * internal_unit)) return kNaN;
   return (simulated - minimum) / width;
 }
 
@@ -52,6 +52,7 @@ Measures measure(const Packing& packing, const ProblemSummary& problem, const Co
                  const ExtremalStates& extremal, const Certified& certified) {
   const Eigen::Index count = packing.contact_count();
   const double unit = problem.force_unit;
+  const double internal_unit = packing.force_units().internal_in_scene();
   Measures measures;
   for (auto* vector : {&measures.delta_R, &measures.delta_T, &measures.R_star, &measures.T_star})
     vector->setConstant(count, kNaN);
@@ -69,8 +70,8 @@ Measures measure(const Packing& packing, const ProblemSummary& problem, const Co
     const Contact& contact = packing[ContactId(i)];
     measures.delta_R[i] = (value[kMaxR] - value[kMinR]) / unit;
     measures.delta_T[i] = (value[kMaxT] - value[kMinT]) / unit;
-    measures.R_star[i] = relative_position(contact.R, value[kMinR], value[kMaxR], unit);
-    measures.T_star[i] = relative_position(contact.T, value[kMinT], value[kMaxT], unit);
+    measures.R_star[i] = relative_position(contact.R, value[kMinR], value[kMaxR], internal_unit);
+    measures.T_star[i] = relative_position(contact.T, value[kMinT], value[kMaxT], internal_unit);
   }
   if (request.choice == ContactChoice::Kind::kSample) {
     measures.sample_R = estimate_from_requested(certified.outcome, measures.delta_R);

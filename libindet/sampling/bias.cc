@@ -44,7 +44,8 @@ class Comparison {
   SamplingBias run(const ForceRanges* ranges) {
     const Eigen::Index contacts = body_.frame.rows() / 2;
     bias_.states = static_cast<int>(chain_.cols());
-    bias_.mean = bias_.deviation = bias_.effective = Eigen::VectorXd::Constant(contacts, kNaN);
+    bias_.mean = bias_.deviation = Eigen::VectorXd::Constant(contacts, kNaN);
+    bias_.effective = bias_.uniform_effective = bias_.mean;
     bias_.tests.resize(static_cast<std::size_t>(contacts));
     bias_.control.resize(static_cast<std::size_t>(contacts));
     for (Eigen::Index k = 0; k < body_.frame.rows(); ++k) {
@@ -84,6 +85,7 @@ class Comparison {
     bin(contact, chain.values, ranges, bias_.chain);
     if (!varies(contact)) return;
     bias_.effective[contact] = chain.effective;
+    bias_.uniform_effective[contact] = uniform.effective;
     if (chain.effective >= SamplingBias::kFewest)
       bias_.tests[i] = compare_samples(chain.sample(), uniform.sample());
     const Eigen::Index half = static_cast<Eigen::Index>(sample_.chains / 2) * sample_.length;

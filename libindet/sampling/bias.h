@@ -47,6 +47,7 @@ struct SamplingBias {
 
   Eigen::VectorXd mean, deviation;     ///< M: of the R of the chain
   Eigen::VectorXd effective;           ///< M: effective states of the chain for the mean of R
+  Eigen::VectorXd uniform_effective;   ///< M: the same of the uniform sample
   std::vector<TwoSampleTest> tests;    ///< M: the chain against the uniform sample
   std::vector<TwoSampleTest> control;  ///< M: half of the uniform chains against the other half
   SampledForces uniform, chain;

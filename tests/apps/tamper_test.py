@@ -3,6 +3,7 @@
 Argument: the indet executable.
 """
 
+import json
 import pathlib
 import re
 import shutil
@@ -18,11 +19,25 @@ FILE_FORMAT = ""
 
 # Results that are not computed a second time. One that leaves this list is progress, one that joins it is a loss.
 GUARDED_BY_THE_DIGEST_ALONE = {
-    "equilibrium@blocks", "equilibrium@determined", "equilibrium@doubtful", "equilibrium@equations",
-    "equilibrium@largest_rejected",
-    "equilibrium@rank_ambiguous", "equilibrium@rank_gap", "equilibrium@smallest_accepted",
-    "equilibrium@worst_dual_residual", "equilibrium@worst_primal_residual", "ranges/sensitivity", "ranges/unique",
-    "ranges/upper"}
+    "equilibrium@largest_rejected", "equilibrium@rank_ambiguous", "equilibrium@rank_gap",
+    "equilibrium@smallest_accepted", "ranges/sensitivity", "ranges/unique", "ranges/upper"}
+
+SAMPLINGS = {"sampling", "uniform", "bias"}
+
+
+def places(group, names):
+    return {f"{group}{name}" for name in names.split()}
+
+
+# Of samples. How much is noticed depends on their numbers: these are the places that need not be.
+OF_THE_WALK = "@inscribed_radius @requested @seed @steps @warm_up_phases @worst_slack"
+OF_THE_SHAPE = ("@diameter_by_ranges @diameter_lower @diameter_upper @log_volume @log_volume_error @mean_width "
+                "@mean_width_error @volume_phases @start_R_star_percentile @start_mean_R_star")
+OF_SAMPLES_THAT_ARE_NOT_STORED = ("/bulk_ess /quantiles /rhat /tail_ess @most_sliding @norm_bulk_ess @norm_rhat "
+                                  "@norm_tail_ess @r_error @spread")
+OF_SOLUTIONS = "@accepted @converged @r @r_error @samples @seed @spread @width @worst_raw_residual @worst_residual"
+OF_THE_COMPARISON = ("/control_p_distribution /control_p_mean /deviation_R /effective_R /p_distribution "
+                     "/uniform_effective_R @center_shift_error")
 
 
 def digest_of_documentation():
@@ -67,11 +82,16 @@ def change(file, path, attribute):
         file[path][...] = data
         return
     value = np.array(file[path].attrs[attribute])
-    value.flat[-1] = other(value.flat[-1])
+    last = value.flat[-1]
+    # Numbers of a sample are stored as reals, its counts too.
+    is_count = path in SAMPLINGS and abs(last) >= 1 and last == np.round(last)
+    value.flat[-1] = last - 1 if is_count else other(last)
     file[path].attrs.modify(attribute, value)
 
 
-class Tamper(program.ProgramTest):
+class Tampered(program.ProgramTest):
+    """Has a file good.h5, and the places of its numbers."""
+
     def setUp(self):
         super().setUp()
         # A pyramid whose "simulated" forces are the middle of its ranges, so that every measure has a value.
@@ -80,14 +100,12 @@ class Tamper(program.ProgramTest):
         with h5py.File(self.folder / "r.h5") as file:
             middle = file["extremal/states"][()].mean(axis=0).reshape(-1, 2).tolist()
         self.packing(program.pyramid(forces=middle), name="q")
-        self.analyze()
 
-    def analyze(self, *options):
-        self.run_indet("analyze", "q.h5", "-o", "good.h5", *options)
+    def make(self, *arguments):
+        self.run_indet(*arguments, "-o", "good.h5")
         self.run_indet("verify", "good.h5")
         with h5py.File(self.folder / "good.h5") as file:
             self.places = numbers_of(file)
-        self.assertGreater(len(self.places), 60)
 
     def verify_changed(self, path, attribute, forge=None):
         shutil.copy(self.folder / "good.h5", self.folder / "bad.h5")
@@ -98,6 +116,44 @@ class Tamper(program.ProgramTest):
         with h5py.File(self.folder / "bad.h5") as file:
             kind = (file[path] if attribute is None else np.asarray(file[path].attrs[attribute])).dtype.kind
         return kind
+
+    def forge(self, file):
+        digest = digest_of_documentation()
+        if "ranges" in file:
+            file["ranges"].attrs.modify("sha256", digest(file, ["extremal", "ranges"]))
+        file.attrs.modify("content_sha256", digest(file, [name for name in file if name != "provenance"]))
+
+    def unnoticed(self, *groups):
+        """The numbers of the groups that can be changed, with the digest, without a contradiction."""
+        unnoticed = set()
+        for path, attribute in self.places:
+            if path.split("/")[0] not in groups:
+                continue
+            self.verify_changed(path, attribute, self.forge)
+            done = program.run([program.INDET, "verify", "bad.h5"], self.folder)
+            self.assertIn(done.returncode, [0, 3, 5], done.stderr)
+            self.assertNotIn("content_sha256", done.stdout)
+            if done.returncode == 5:
+                self.assertNotIn(" 0 contradictions", done.stdout)
+            if done.returncode == 0:
+                unnoticed.add(path if attribute is None else f"{path}@{attribute}")
+        self.assert_named(unnoticed)
+        return unnoticed
+
+    def assert_named(self, unnoticed):
+        """The program itself says that these are not computed again."""
+        left = json.loads(self.run_indet("--json", "verify", "good.h5").stdout)["not_checked"]
+        named = {word for text in left for word in re.findall(r"\w+", text)}
+        for place in unnoticed:
+            name = re.split(r"[/@]", place)[-1]
+            self.assertTrue(name in named or (name.endswith("percentile") and "percentiles" in named), place)
+
+
+class OfRanges(Tampered):
+    def setUp(self):
+        super().setUp()
+        self.make("analyze", "q.h5")
+        self.assertGreater(len(self.places), 60)
 
     def test_every_number(self):
         for path, attribute in self.places:
@@ -115,33 +171,110 @@ class Tamper(program.ProgramTest):
                     self.assertIn("bad.h5", done.stderr)
 
     def test_results_with_a_forged_digest(self):
-        digest = digest_of_documentation()
-
-        def forge(file):
-            file["ranges"].attrs.modify("sha256", digest(file, ["extremal", "ranges"]))
-            file.attrs.modify("content_sha256", digest(file, [name for name in file if name != "provenance"]))
-
-        self.assertEqual(self.unnoticed_with_a_forged_digest(("ranges", "extremal", "equilibrium"), forge),
-                         GUARDED_BY_THE_DIGEST_ALONE)
+        self.assertEqual(self.unnoticed("ranges", "extremal", "equilibrium"), GUARDED_BY_THE_DIGEST_ALONE)
         # Of a sample of contacts, what tells about the others.
-        self.analyze("--contacts", "sample:3", "--seed", "4")
+        self.make("analyze", "q.h5", "--contacts", "sample:3", "--seed", "4")
         sampled = {attribute for path, attribute in self.places if path == "ranges"}
         self.assertEqual(sampled, {"requested", "sample_seed", "confidence", "mean_delta_R", "band_delta_R",
                                    "mean_delta_T", "band_delta_T"})
-        self.assertEqual(self.unnoticed_with_a_forged_digest(("ranges",), forge) - GUARDED_BY_THE_DIGEST_ALONE,
-                         {"ranges@sample_seed"})
+        self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE, {"ranges@sample_seed"})
 
-    def unnoticed_with_a_forged_digest(self, groups, forge):
-        results = [(path, attribute) for path, attribute in self.places if path.split("/")[0] in groups]
-        unnoticed = []
-        for path, attribute in results:
-            self.verify_changed(path, attribute, forge)
-            done = program.run([program.INDET, "verify", "bad.h5"], self.folder)
-            self.assertIn(done.returncode, [0, 3, 5], done.stderr)
-            self.assertNotIn("content_sha256", done.stdout)
-            if done.returncode == 0:
-                unnoticed.append(path if attribute is None else f"{path}@{attribute}")
-        return set(unnoticed)
+
+class OfSamples(Tampered):
+    def test_all_states(self):
+        self.make("sample", "q.h5", "--method", "uniform", "--states", "1000000", "--covariance", "--shape")
+        self.assertGreater(len(self.places), 60)
+        self.assertLessEqual(self.unnoticed("sampling"), places("sampling", f"{OF_THE_WALK} {OF_THE_SHAPE}"))
+
+    def test_no_states(self):
+        self.make("sample", "q.h5", "--method", "uniform")
+        self.assertLessEqual(self.unnoticed("sampling"),
+                             places("sampling", f"{OF_THE_WALK} {OF_SAMPLES_THAT_ARE_NOT_STORED}"))
+
+    def test_perturbed(self):
+        self.make("sample", "q.h5", "--samples", "20")
+        self.assertLessEqual(self.unnoticed("sampling"), places("sampling", OF_SOLUTIONS))
+
+    def test_another_unit_of_force(self):
+        """As of a sample that was drawn in one unit and written in another."""
+        for options in (["--samples", "5"], ["--method", "uniform"], ["--method", "uniform", "--states", "9"]):
+            self.make("sample", "q.h5", *options)
+            with h5py.File(self.folder / "good.h5", "r+") as file:
+                for name, data in file["sampling"].items():
+                    if data.attrs["unit"] == "force":
+                        data[...] = 30000 * data[()]
+                self.forge(file)
+            done = self.run_indet("verify", "good.h5", status=5)
+            self.assertIn("/sampling: center: it violates equilibrium or contact conditions", done.stdout)
+
+    def test_what_was_measured_is_told_and_what_was_not_is_not(self):
+        self.make("sample", "q.h5", "--method", "uniform", "--states", "9")
+        text = self.run_indet("verify", "good.h5").stdout
+        self.assertRegex(text, r"good\.h5: \d+ checks, 0 contradictions\n/sampling: 10 states, imbalance up to \d")
+        self.assertIn("samples 9 are stored", text)
+        self.assertNotIn("gap", text)
+        report = json.loads(self.run_indet("--json", "verify", "good.h5").stdout)
+        self.assertEqual((report["states"], report["optima"], report["worst_optimality_gap"]), (10, 0, None))
+        self.run_indet("verify", "q.h5")
+        text = self.run_indet("verify", "q.h5").stdout
+        self.assertEqual(text, "q.h5: 1 check, 0 contradictions\nthere are no contact states in the file\n")
+
+    def test_not_converged(self):
+        self.run_indet("sample", "q.h5", "--method", "uniform", "--effective", "100000", "--limit", "1000", "-o", "s.h5",
+                       status=5)
+        done = self.run_indet("verify", "s.h5", status=5)
+        self.assertIn("0 contradictions", done.stdout)
+        self.assertIn("sample not converged", done.stdout)
+
+
+class OfAnEnsemble(Tampered):
+    def test_the_samplings_of_a_member(self):
+        self.run_indet("ensemble", "--seeds", "1", "--disks", "10", "--samples", "60", "-o", "e")
+        shutil.copy(self.folder / "e/members/cd1-0000.h5", self.folder / "good.h5")
+        self.run_indet("verify", "good.h5")
+        with h5py.File(self.folder / "good.h5") as file:
+            self.places = numbers_of(file)
+            self.assertIn("bias", file)
+        self.assertLessEqual(
+            self.unnoticed(*SAMPLINGS),
+            places("sampling", OF_SOLUTIONS) | places("bias", OF_THE_COMPARISON) |
+            places("uniform", f"{OF_THE_WALK} {OF_SAMPLES_THAT_ARE_NOT_STORED}"))
+
+
+class Unsolved(Tampered):
+    def test_a_failed_objective_is_5_and_said(self):
+        self.make("analyze", "q.h5")
+        with h5py.File(self.folder / "good.h5", "r+") as file:
+            ranges, equilibrium = file["ranges"], file["equilibrium"].attrs
+            outcome = ranges["outcome"][()]
+            outcome[0, 3] = 3
+            ranges["outcome"][...] = outcome
+            for name in ("T_max", "delta_T", "d_T", "T_star"):
+                ranges[name][0] = np.nan
+            for name in ("lower", "upper", "primal_residual", "dual_residual", "sensitivity"):
+                ranges[name][0, 3] = np.nan
+            ranges["vertex"][0, 3] = -1
+            equilibrium.modify("failed", np.int64(1))
+            equilibrium.modify("certified", equilibrium["certified"] - 1)
+            worst = {name: np.nanmax(ranges[name][()]) for name in ("primal_residual", "dual_residual")}
+            for name, value in worst.items():
+                equilibrium.modify(f"worst_{name}", value)
+            self.forge(file)
+        done = self.run_indet("verify", "good.h5", status=5)
+        self.assertIn("0 contradictions", done.stdout)
+        self.assertIn("force ranges: 1 of 20 objectives failed", done.stdout)
+        report = json.loads(self.run_indet("--json", "verify", "good.h5", status=5).stdout)
+        self.assertTrue(report["passed"])
+        self.assertEqual(report["not_solved"], ["force ranges: 1 of 20 objectives failed"])
+
+    def test_counts_of_a_packing_that_cannot_stand(self):
+        self.run_indet("analyze", self.packing(program.incline(), name="i"), "-o", "good.h5", status=4)
+        text = self.run_indet("verify", "good.h5").stdout
+        self.assertIn("there are no contact states in the file", text)
+        with h5py.File(self.folder / "good.h5", "r+") as file:
+            file["equilibrium"].attrs.modify("objectives", np.int64(8))
+            self.forge(file)
+        self.assertIn("objectives: 8 is stored, 4 is right", self.run_indet("verify", "good.h5", status=5).stdout)
 
 
 if __name__ == "__main__":

@@ -49,6 +49,7 @@ class Uniform(program.ProgramTest):
             self.assertAlmostEqual(shown[name], length, places=8)
         self.assertAlmostEqual(shown["log_volume"], math.log(length), delta=4 * shown["log_volume_error"])
 
+        self.run_indet("verify", "s.h5")
         with h5py.File(self.folder / "s.h5") as file:
             group = file["sampling"]
             self.assertEqual(group.attrs["method"], "uniform")
@@ -82,6 +83,8 @@ class Uniform(program.ProgramTest):
         self.run_indet("sample", packing, "--method", "uniform", "--effective", "4000", "--states", "1000000",
                        "--covariance", "-o", "s.h5")
         self.run_indet("sample", packing, "--method", "uniform", "-o", "without.h5")
+        self.run_indet("verify", "s.h5")
+        self.run_indet("verify", "without.h5")
         with h5py.File(self.folder / "s.h5") as file, h5py.File(self.folder / "without.h5") as without:
             group = file["sampling"]
             self.assertEqual(group["covariance"].attrs["unit"], "force2")
@@ -125,6 +128,7 @@ class Uniform(program.ProgramTest):
         self.assertEqual(shown["r"], 0)
         with h5py.File(self.folder / "s.h5") as file:
             R = 0.5 / math.cos(math.pi / 6)
+            self.run_indet("verify", "s.h5")
             np.testing.assert_allclose(file["sampling/center"][()], [R, 0, R, 0], atol=1e-14)
 
     def test_threads_change_nothing_and_seeds_do(self):

@@ -132,6 +132,8 @@ class EnsembleTest(program.ProgramTest):
             name = f"e/members/{runs['member'][row].decode()}.h5"
             self.run_indet("sample", name, "--method", "uniform", "--states", "1000000", "-o", "u.h5")
             self.run_indet("sample", name, "--samples", "60", "-o", "p.h5")
+            for file in (name, "u.h5", "p.h5"):
+                self.run_indet("verify", file)
             mine = contacts["run"] == row
             mg = runs["mg"][row]
             with h5py.File(self.folder / name) as member, h5py.File(self.folder / "u.h5") as u, \

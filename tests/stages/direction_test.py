@@ -66,7 +66,7 @@ class Direction(unittest.TestCase):
         self.assertEqual(self.stages["sim"].depends, {"base", "packing"})
 
     def test_the_checker_includes_nothing_of_the_solver(self):
-        self.assertFalse(self.stages["verify"].includes & {"contact", "nullspace", "lp", "pivoting", "polytope"})
+        self.assertFalse(self.stages["verify"].includes & {"equilibrium", "nullspace", "lp", "pivoting", "polytope"})
 
     def test_each_library_has_one_wrapper(self):
         for path in includes.sources(ROOT, "libindet", "libsim", "apps"):

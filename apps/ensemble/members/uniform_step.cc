@@ -74,6 +74,8 @@ void write_bias(Hdf5File& file, const SamplingBias& bias, int uniform_states) {
   write_vector(file, "/bias/deviation_R", bias.deviation, {"mg", "standard deviation of R, the same"});
   write_vector(file, "/bias/effective_R", bias.effective,
                {"1", "effective states for the mean of R, the same"});
+  write_vector(file, "/bias/uniform_effective_R", bias.uniform_effective,
+               {"1", "effective states for the mean of R of the uniform distribution"});
   const char* mean = "p-value of equal means of R";
   const char* distribution = "p-value of equal distributions of R";
   write_probabilities(file, "/bias/p_mean", bias.tests, &TwoSampleTest::p_mean, mean);
@@ -102,7 +104,7 @@ UniformResult sample_uniformly(const Packing& packing, const ForceRanges& ranges
   if (packing.has_simulated_forces()) {
     const Placement placement = place_state(packing, body, sample, packing.simulated_forces(), &ranges);
     result.record->numbers.merge(numbers_of(placement));
-    result.percentile_R = placement.percentile_R;
+    result.record->components->percentile_R = placement.percentile_R;
   }
   if (chain.value().cols() >= kFewestStates) result.bias = compare_with_uniform(body, sample, chain, &ranges);
   return result;
@@ -115,10 +117,6 @@ void write_uniform_part(Hdf5File& file, const UniformResult& result) {
     file.make_group("/uniform");
   }
   file.set_attribute("/uniform", "outcome", result.outcome);
-  if (result.percentile_R.size() > 0) {
-    write_vector(file, "/uniform/percentile_R", result.percentile_R,
-                 {"1", "percentage of the samples with a smaller R than the simulated one"});
-  }
   if (result.bias) write_bias(file, *result.bias, static_cast<int>(result.record->numbers.at("samples")));
 }
 

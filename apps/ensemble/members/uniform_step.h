@@ -17,7 +17,6 @@ namespace indet {
 struct UniformResult {
   std::string outcome;                        ///< converged, limit; without a sample: unbounded, point, empty
   std::optional<SamplingRecord> record = {};  ///< As of indet sample --method uniform, without states.
-  Eigen::VectorXd percentile_R = {};          ///< M; empty without a sample or without simulated forces
   std::optional<SamplingBias> bias = {};      ///< Of `chain`.
 };
 

@@ -7,15 +7,23 @@
 
 namespace indet {
 
-/// The equilibrium problem built a second time, straight from the paper, and solved with other means than the
-/// analysis uses: a dense contact matrix [15] with all 2M columns (T is held at 0 where μ = 0 by a row of its
-/// own), and its kernel by column-pivoted Householder QR. Forces in units of the packing's force unit.
-class Oracle {
+/// Orthonormal columns that span {z : constraints · z = 0}, by column-pivoted Householder QR; directions
+/// below tolerance::kRebuiltRank of the largest pivot count as zero.
+Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints);
+
+/// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
+/// solved with other means than the analysis uses: a dense contact matrix [15] with all 2M columns (T is held
+/// at 0 where μ = 0 by a row of its own), and its kernel by column-pivoted Householder QR. Forces in units of
+/// the packing's force unit.
+class RebuiltProblem {
  public:
-  explicit Oracle(const Packing& packing);
+  explicit RebuiltProblem(const Packing& packing);
 
   int nullity() const { return static_cast<int>(kernel_.cols()); }
+  const Eigen::MatrixXd& kernel() const { return kernel_; }  ///< 2M × d, orthonormal
   double force_unit() const { return force_unit_; }
+  /// The unit that tolerances are meant in, in force units (Packing::internal_force_unit).
+  double internal_unit() const { return internal_unit_; }
 
   /// Largest entry of cF + w, torques divided by the radius.
   double imbalance(const Eigen::VectorXd& forces) const;
@@ -25,6 +33,16 @@ class Oracle {
   /// as −min(0, ·) for all: largest violation.
   double violation(const Eigen::VectorXd& forces) const;
   double slack(int half_plane, const Eigen::VectorXd& forces) const;
+  /// The inward normal of a half-plane within ker c: the slack along kernel() · z changes by its product
+  /// with z.
+  Eigen::VectorXd normal_of(int half_plane) const;
+
+  /// Sliding contacts (a non-transmitting one counts twice) and non-transmitting ones, with ε = kSliding
+  /// in the internal unit.
+  struct SlidingCount {
+    int sliding = 0, non_transmitting = 0;
+  };
+  SlidingCount count_sliding(const Eigen::VectorXd& forces) const;
 
   /// How far component e of the forces (2α: R_α, 2α + 1: T_α), times `sign`, is from being maximal at a state
   /// with these tight half-planes: the distance of its gradient from the cone of their outward normals, both
@@ -37,10 +55,8 @@ class Oracle {
   double smallest_contact_power(const Eigen::MatrixXd& motion) const;
 
  private:
-  Eigen::VectorXd normal_of(int half_plane) const;  ///< in ker c coordinates
-
   const Packing& packing_;
-  double force_unit_;
+  double force_unit_, internal_unit_;
   Eigen::MatrixXd matrix_;  ///< 3N × 2M
   Eigen::VectorXd wrench_;  ///< 3N
   Eigen::MatrixXd kernel_;  ///< 2M × d

@@ -1,4 +1,4 @@
-#include "libindet/verify/oracle.h"
+#include "libindet/verify/rebuilt_problem.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -10,13 +10,11 @@
 #include "libindet/verify/nonnegative.h"
 
 namespace indet {
-namespace {
-
 Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints) {
   if (constraints.cols() == 0) return Eigen::MatrixXd(0, 0);
   if (constraints.rows() == 0) return Eigen::MatrixXd::Identity(constraints.cols(), constraints.cols());
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(tolerance::kOracleRank);
+  qr.setThreshold(tolerance::kRebuiltRank);
   qr.compute(constraints.transpose());
   const Eigen::Index nullity = constraints.cols() - qr.rank();
   Eigen::MatrixXd last = Eigen::MatrixXd::Zero(constraints.cols(), nullity);
@@ -25,9 +23,10 @@ Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints) {
   return last;
 }
 
-}  // namespace
-
-Oracle::Oracle(const Packing& packing) : packing_(packing), force_unit_(packing.force_unit()) {
+RebuiltProblem::RebuiltProblem(const Packing& packing)
+    : packing_(packing),
+      force_unit_(packing.force_unit()),
+      internal_unit_(packing.internal_force_unit() / force_unit_) {
   const int disks = packing.disk_count();
   const int contacts = packing.contact_count();
   matrix_.setZero(3 * disks, 2 * contacts);
@@ -59,15 +58,16 @@ Oracle::Oracle(const Packing& packing) : packing_(packing), force_unit_(packing.
   kernel_ = kernel_of(constraints);
 }
 
-double Oracle::imbalance_without_load(const Eigen::VectorXd& forces) const {
+double RebuiltProblem::imbalance_without_load(const Eigen::VectorXd& forces) const {
   return matrix_.size() == 0 ? 0 : (matrix_ * forces).lpNorm<Eigen::Infinity>();
 }
 
-double Oracle::imbalance(const Eigen::VectorXd& forces) const {
+double RebuiltProblem::imbalance(const Eigen::VectorXd& forces) const {
+  if (!forces.allFinite()) return std::numeric_limits<double>::infinity();
   return wrench_.size() == 0 ? 0 : (matrix_ * forces + wrench_).lpNorm<Eigen::Infinity>();
 }
 
-double Oracle::slack(int half_plane, const Eigen::VectorXd& forces) const {
+double RebuiltProblem::slack(int half_plane, const Eigen::VectorXd& forces) const {
   const int contact = half_plane / 2;
   const double mu = packing_[ContactId(contact)].mu;
   const double R = forces[2 * contact];
@@ -76,13 +76,27 @@ double Oracle::slack(int half_plane, const Eigen::VectorXd& forces) const {
   return (mu * R + (half_plane % 2 == 0 ? T : -T)) / std::hypot(1.0, mu);
 }
 
-double Oracle::violation(const Eigen::VectorXd& forces) const {
+double RebuiltProblem::violation(const Eigen::VectorXd& forces) const {
   double worst = 0;
   for (int h = 0; h < 2 * packing_.contact_count(); ++h) worst = std::max(worst, -slack(h, forces));
   return worst;
 }
 
-Eigen::VectorXd Oracle::normal_of(int half_plane) const {
+RebuiltProblem::SlidingCount RebuiltProblem::count_sliding(const Eigen::VectorXd& forces) const {
+  const double epsilon = tolerance::kSliding * internal_unit_;
+  SlidingCount count;
+  for (int i = 0; i < packing_.contact_count(); ++i) {
+    const double mu = packing_[ContactId(i)].mu;
+    const double R = forces[2 * i];
+    const double T = std::abs(forces[2 * i + 1]);
+    const bool transmits = std::abs(R) >= epsilon || T >= epsilon;
+    count.non_transmitting += transmits ? 0 : 1;
+    count.sliding += transmits ? (mu > 0 && mu * R - T < epsilon ? 1 : 0) : 2;
+  }
+  return count;
+}
+
+Eigen::VectorXd RebuiltProblem::normal_of(int half_plane) const {
   const int contact = half_plane / 2;
   const double mu = packing_[ContactId(contact)].mu;
   if (mu == 0) return kernel_.row(2 * contact).transpose();
@@ -91,7 +105,7 @@ Eigen::VectorXd Oracle::normal_of(int half_plane) const {
          std::hypot(1.0, mu);
 }
 
-double Oracle::optimality_gap(int component, double sign, const std::vector<int>& tight) const {
+double RebuiltProblem::optimality_gap(int component, double sign, const std::vector<int>& tight) const {
   const Eigen::VectorXd gradient = sign * kernel_.row(component).transpose();
   if (gradient.size() == 0 || gradient.norm() == 0) return 0;
   Eigen::MatrixXd normals(nullity(), static_cast<Eigen::Index>(tight.size()));
@@ -107,14 +121,14 @@ double Oracle::optimality_gap(int component, double sign, const std::vector<int>
   return (normals * solve_nonnegative(normals, -gradient) + gradient).norm();
 }
 
-double Oracle::load_power(const Eigen::MatrixXd& motion) const {
+double RebuiltProblem::load_power(const Eigen::MatrixXd& motion) const {
   double power = 0;
   for (Eigen::Index i = 0; i < motion.rows(); ++i)
     power += wrench_.segment<3>(3 * i).dot(motion.row(i).transpose());
   return power;
 }
 
-double Oracle::smallest_contact_power(const Eigen::MatrixXd& motion) const {
+double RebuiltProblem::smallest_contact_power(const Eigen::MatrixXd& motion) const {
   Eigen::VectorXd flat(3 * motion.rows());
   for (Eigen::Index i = 0; i < motion.rows(); ++i) flat.segment<3>(3 * i) = motion.row(i).transpose();
   const Eigen::VectorXd relative = matrix_.transpose() * flat;

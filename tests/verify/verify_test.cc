@@ -1,0 +1,123 @@
+#include "libindet/verify/verify.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libindet/range/analyze.h"
+#include "libindet/verify/affine_hull.h"
+#include "tests/support/zoo.h"
+
+namespace indet {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+std::string first_message(const Verification& found) {
+  return found.messages.empty() ? "" : found.messages.front();
+}
+
+void expect_contradiction(const Packing& packing, const ForceRanges& wrong, const std::string& text) {
+  const Verification found = verify_ranges(packing, wrong);
+  EXPECT_EQ(found.contradictions, 1) << text;
+  EXPECT_THAT(found.messages, Contains(HasSubstr(text)));
+}
+
+TEST(VerifyRanges, CountsOfAPackingThatCannotStand) {
+  const Packing packing = zoo::disk_on_incline(0.2, 1);
+  const ForceRanges good = analyze(packing);
+  const Verification found = verify_ranges(packing, good);
+  EXPECT_TRUE(found.passed()) << first_message(found);
+  EXPECT_EQ(found.states, 0);
+  EXPECT_TRUE(std::isnan(found.worst_imbalance));
+  EXPECT_TRUE(std::isnan(found.worst_optimality_gap));
+  ForceRanges wrong = good;
+  wrong.objectives += 4;
+  expect_contradiction(packing, wrong, "objectives: 8 is stored, 4 is right");
+  wrong = good;
+  wrong.value(0, kMaxR) = 3;
+  EXPECT_FALSE(verify_ranges(packing, wrong).passed());
+}
+
+TEST(VerifyRanges, CountsAndWorstResiduals) {
+  const Packing packing = zoo::column(3, 0.3, 0.5);
+  const ForceRanges good = analyze(packing);
+  EXPECT_TRUE(verify_ranges(packing, good).passed()) << first_message(verify_ranges(packing, good));
+  const auto with = [&](auto change) {
+    ForceRanges wrong = good;
+    change(wrong);
+    return wrong;
+  };
+  expect_contradiction(packing, with([](ForceRanges& r) { ++r.blocks; }), "blocks");
+  expect_contradiction(packing, with([](ForceRanges& r) { ++r.determined; }), "determined");
+  expect_contradiction(packing, with([](ForceRanges& r) { --r.equations; }), "equations");
+  expect_contradiction(packing, with([](ForceRanges& r) { r.worst_primal_residual *= 2; }),
+                       "worst_primal_residual");
+  expect_contradiction(packing, with([](ForceRanges& r) { r.worst_dual_residual += 1e-10; }),
+                       "worst_dual_residual");
+  expect_contradiction(packing, with([](ForceRanges& r) { r.doubtful = true; }), "doubtful");
+}
+
+TEST(VerifyRanges, SaysHowManyObjectivesFailedOrAreImprecise) {
+  const Packing packing = zoo::column(3, 0.3, 0.5);
+  ForceRanges ranges = analyze(packing);
+  EXPECT_TRUE(verify_ranges(packing, ranges).unsolved.empty());
+  ranges.outcome(0, kMaxT) = Outcome::kFailed;
+  ranges.vertex(0, kMaxT) = -1;
+  ranges.value(0, kMaxT) = ranges.delta_T[0] = ranges.d_T[0] = ranges.T_star[0] = ForceRanges::kNaN;
+  ranges.outcome(1, kMinR) = Outcome::kImprecise;
+  ranges.failed = ranges.imprecise = 1;
+  ranges.certified -= 2;
+  const Verification found = verify_ranges(packing, ranges);
+  EXPECT_THAT(found.unsolved,
+              testing::ElementsAre("1 of 24 objectives imprecise", "1 of 24 objectives failed"));
+}
+
+/// The hull at the mean of the stored states; the packing has to be one whose states reach the interior.
+std::optional<AffineHull> hull_of(const Packing& packing, const ForceRanges& ranges) {
+  const RebuiltProblem problem(packing);
+  Eigen::VectorXd inside = ranges.states.colwise().mean().transpose() / ranges.force_unit;
+  if (ranges.rays.rows() > 0) inside += ranges.rays.colwise().sum().transpose();
+  return AffineHull::at(problem, inside);
+}
+
+TEST(AffineHull, HasTheDimensionAndTheBlocksOfThePolytope) {
+  struct Case {
+    Packing packing;
+    int dim, blocks;
+  };
+  for (const Case& c :
+       {Case{zoo::two_wedges(0.5, 0.3, 0.4, 0.2), 2, 2}, Case{zoo::wedge_and_corner(0.5, 0.3), 1, 1},
+        Case{zoo::corner(0.5, 0.5), 0, 0}, Case{zoo::corner(0.5, 1), 1, 1},
+        Case{zoo::pinched_disk(0.4), 1, 1}, Case{zoo::column(4, 0.2, 0.5), 4, 1}}) {
+    SCOPED_TRACE(testing::Message() << "dimension " << c.dim << ", contacts " << c.packing.contact_count());
+    const ForceRanges ranges = analyze(c.packing);
+    EXPECT_EQ(ranges.dim, c.dim);
+    EXPECT_EQ(ranges.blocks, c.blocks);
+    const std::optional<AffineHull> hull = hull_of(c.packing, ranges);
+    ASSERT_TRUE(hull);
+    EXPECT_EQ(hull->dim(), c.dim);
+    EXPECT_EQ(hull->blocks(), c.blocks);
+    const Verification found = verify_ranges(c.packing, ranges);
+    EXPECT_TRUE(found.passed()) << first_message(found);
+  }
+}
+
+TEST(AffineHull, AgreesWithThePolytopesOfPiles) {
+  int compared = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Packing packing = zoo::random_pile(seed, 8, 0.5);
+    const ForceRanges ranges = analyze(packing);
+    if (ranges.status == PolytopeStatus::kEmpty || ranges.doubtful) continue;
+    const std::optional<AffineHull> hull = hull_of(packing, ranges);
+    ASSERT_TRUE(hull) << seed;
+    EXPECT_LE(hull->dim(), ranges.dim);
+    if (hull->dim() < ranges.dim) continue;  // the states do not reach the interior
+    EXPECT_EQ(hull->blocks(), ranges.blocks) << seed;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10);
+}
+
+}  // namespace
+}  // namespace indet
