@@ -10,10 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/command.h"
 #include "apps/configuration.h"
+#include "apps/ensemble/members/folder.h"
+#include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/members/run.h"
 #include "apps/ensemble_output.h"
 #include "apps/memory_limit.h"
@@ -97,26 +100,32 @@ Range range_of(const std::string& text, int members) {
   return range;
 }
 
-int list_members(const Plan& plan, const Range& range, const Context& context) {
+int list_members(const Plan& plan, const Range& range, const std::filesystem::path& folder,
+                 const Context& context) {
   double total = 0;
+  int open = 0;
   nlohmann::json json = nlohmann::json::array();
-  if (context.prints_report()) fmt::print("{:>6}  {:<24} {:>12}\n", "member", "name", "seconds");
+  if (context.prints_report()) fmt::print("{:>6}  {:<24} {:>13}\n", "member", "packing", "seconds");
   for (const Member& member : plan.members) {
     if (member.number < range.first || member.number > range.last) continue;
-    total += member.cost;
+    const bool is_done = member_is_done(member_path(folder, member.name), member);
+    total += is_done ? 0 : member.cost;
+    open += is_done ? 0 : 1;
     if (context.json) {
       json.push_back({{"member", member.number},
                       {"name", member.name},
                       {"seconds", member.cost},
-                      {"hash", member.hash}});
+                      {"hash", member.hash},
+                      {"done", is_done}});
     } else if (context.prints_report()) {
-      fmt::print("{:>6}  {:<24} {:>12.1f}\n", member.number, member.name, member.cost);
+      const std::string cost = is_done ? "there already" : fmt::format("{:.1f}", member.cost);
+      fmt::print("{:>6}  {:<24} {:>13}\n", member.number, member.name, cost);
     }
   }
   if (context.json) {
     std::cout << nlohmann::json{{"members", json}, {"seconds", total}}.dump(2) << '\n';
   } else if (context.prints_report()) {
-    fmt::print("{}, about {:.0f} s on {}\n", counted(range.last - range.first + 1, "packing"),
+    fmt::print("{} to compute, about {:.0f} s on {}\n", counted(open, "packing"),
                total / context.thread_count(), counted(context.thread_count(), "core"));
   }
   return kDone;
@@ -131,16 +140,16 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   for (const std::string& file : o.files) open_packing(file);
   const Plan plan = make_plan(config);
   const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
-  if (o.dry_run) return list_members(plan, range, context);
   if (!config.protocols.empty())
     require_memory(sim::memory_estimate(config.scene.disks),
                    fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
   const std::filesystem::path folder = o.folder;
   check_layout(folder);
+  try_reading(member_paths({folder}, plan), read_member);
+  if (o.dry_run) return list_members(plan, range, folder, context);
   std::vector<std::filesystem::path> inputs(o.files.begin(), o.files.end());
   inputs.emplace_back(o.scene_file);
   claim_folder(folder, plan, replacement_rule(inputs, o.overwrite, context));
-  try_reading(member_paths({folder}, plan), read_member);
   std::filesystem::create_directories(folder);
   write_plan(folder, plan);
 
@@ -149,6 +158,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   options.first = range.first;
   options.last = range.last;
   options.progress = context.progress();
+  options.warn = [&](const std::string& text) { context.warn(text); };
   options.provenance = {context.arguments, context.resolved_config, {{"GLPK", glpk_version()}}, {}};
   const RunSummary summary = compute_members(config, plan, folder, options);
   for (const MemberFailure& failure : summary.failures)
@@ -157,12 +167,20 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
+  const int asked = range.last - range.first + 1;
+  const auto stop = [&] { return report_interruption(summary.done + summary.skipped, asked); };
+  if (summary.interrupted) return stop();
   Outcomes outcomes{.done = summary.done, .skipped = summary.skipped, .failures = summary.failures};
-  if (range.last - range.first + 1 < static_cast<int>(plan.members.size())) {
+  if (asked < static_cast<int>(plan.members.size())) {
     return report_part(folder, range.first, range.last, outcomes, seconds(), context);
   }
-  return finish_ensemble(folder, plan, collect_members(plan, {folder}, context.progress()), outcomes, seconds,
-                         context);
+  Collection collection;
+  try {
+    collection = collect_members(plan, {folder}, context.progress());
+  } catch (const Interrupted&) {
+    return stop();
+  }
+  return finish_ensemble(folder, plan, std::move(collection), outcomes, seconds, context);
 }
 
 }  // namespace

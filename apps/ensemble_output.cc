@@ -8,6 +8,7 @@
 
 #include "apps/ensemble/presentation/figures.h"
 #include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/terminal.h"
 
 namespace indet::app {
 namespace {
@@ -59,14 +60,24 @@ int report_part(const std::filesystem::path& folder, int first, int last, const 
   return outcomes.failures.empty() ? kDone : kUncertain;
 }
 
+int report_interruption(int done, int asked) {
+  std::cerr << fmt::format("indet: interrupted; {} of {} {} done; the same command goes on\n", done,
+                           counted(asked, "packing"), done == 1 ? "is" : "are");
+  return 128 + caught_signal();
+}
+
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,
                     const Outcomes& outcomes, const std::function<double()>& seconds,
                     const Context& context) {
   EnsembleContents contents{.config = plan.config,
                             .hash = plan.hash(),
                             .tables = std::move(collection.tables),
-                            .missing = std::move(collection.missing),
+                            .missing = {},
                             .failures = outcomes.failures};
+  for (const MissingMember& missing : collection.missing) {
+    contents.missing.push_back(missing.member);
+    if (!missing.reason.empty()) context.warn(missing.reason);
+  }
   Provenance provenance{context.arguments, context.resolved_config, {}, {}};
   provenance.seconds["ensemble"] = seconds();
   const std::filesystem::path path = folder / "ensemble.h5";

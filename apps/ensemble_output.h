@@ -7,7 +7,7 @@
 #include "apps/command.h"
 #include "apps/ensemble/members/plan.h"
 #include "apps/ensemble/members/run.h"
-#include "apps/ensemble/tables/table.h"
+#include "apps/ensemble/tables/collect.h"
 #include "libindet/io/replacement.h"
 
 namespace indet::app {
@@ -27,6 +27,10 @@ void claim_folder(const std::filesystem::path& folder, const Plan& plan, const R
 /// Says what a run of some members did; returns the exit status.
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
                 double seconds, const Context& context);
+
+/// Says on stderr how far a run came that was told to stop: `done` of the `asked` members are there. Returns
+/// the exit status.
+int report_interruption(int done, int asked);
 
 /// Writes what was collected to FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5 if
 /// members are missing or something is imprecise.

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
-#include "apps/ensemble/tables/table.h"
+#include "apps/ensemble/tables/collect.h"
 #include "apps/ensemble_output.h"
 #include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/io/whole_file.h"
 
 namespace indet::app {
 namespace {
@@ -28,15 +30,17 @@ struct MergeCommand {
   bool overwrite = false;
 };
 
-/// A second name for the same bytes where the file system can, else a copy that appears whole.
+/// A second name for the same bytes where the file system can, else a copy. It takes the place of a file that
+/// is not whole at once, so that `to` is never half there.
 void bring(const fs::path& from, const fs::path& to) {
+  const fs::path temporary = temporary_name(to);
   std::error_code error;
-  fs::remove(to, error);  // what is there is not whole
-  fs::create_hard_link(from, to, error);
-  if (!error) return;
-  const fs::path temporary = fs::path(to).concat(".tmp");
-  fs::copy_file(from, temporary, fs::copy_options::overwrite_existing);
-  fs::rename(temporary, to);
+  fs::create_hard_link(from, temporary, error);
+  if (error) fs::copy_file(from, temporary, error);
+  if (!error) fs::rename(temporary, to, error);
+  std::error_code ignored;
+  fs::remove(temporary, ignored);  // there still if both were one file already
+  if (error) throw InputError(fmt::format("{}: cannot be written ({})", to.string(), error.message()));
 }
 
 int run(const MergeCommand& o, const Context& context) {
@@ -62,14 +66,18 @@ int run(const MergeCommand& o, const Context& context) {
   }
   try_reading(member_paths(folders, plan), read_member);
   Collection collection = collect_members(plan, folders, context.progress());
-  const std::vector<std::string>& missing = collection.missing;
+  const std::vector<MissingMember>& missing = collection.missing;
   if (!missing.empty() && !o.allow_missing) {
     std::string list;
-    for (const std::string& name : missing) list += "\n  " + name;
-    throw InputError(fmt::format("{} of {} members are missing (--allow-missing joins the others):{}",
-                                 missing.size(), plan.members.size(), list));
+    for (const MissingMember& m : missing)
+      list += "\n  " + m.member + (m.reason.empty() ? "" : " (" + m.reason + ")");
+    throw InputError(fmt::format("{} of {} members {} missing (--allow-missing joins the others):{}",
+                                 missing.size(), plan.members.size(), missing.size() == 1 ? "is" : "are",
+                                 list));
   }
   fs::create_directories(members_folder(folder));
+  remove_leftovers(folder);
+  remove_leftovers(members_folder(folder));
   write_plan(folder, plan);
   Outcomes outcomes;
   for (const Member& member : plan.members) {

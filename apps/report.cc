@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/presentation/html_report.h"
 #include "apps/output_files.h"
 #include "apps/trial_reading.h"

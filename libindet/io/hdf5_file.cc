@@ -47,8 +47,8 @@ Hdf5File Hdf5File::open(const fs::path& path) {
   session.file_size = static_cast<std::size_t>(fs::file_size(path, error));
   const Handle access = session.own(H5Pcreate(H5P_FILE_ACCESS), "access");
   session.check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), "access");
-  // A read-only file system cannot lock.
-  session.check(H5Pset_file_locking(access.get(), true, true), "access");
+  // A file that has its name is whole and is never changed: no lock, which many network file systems refuse.
+  session.check(H5Pset_file_locking(access.get(), false, true), "access");
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
   if (file < 0) {
     throw Hdf5ReadError(

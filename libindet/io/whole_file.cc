@@ -4,8 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -45,6 +50,51 @@ int sync_folder_of(const std::filesystem::path& path) {
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   return error;
+}
+
+constexpr std::size_t kLongestName = 150;  // of 255 bytes; a host has 64 at most
+constexpr std::chrono::hours kOld{24};
+
+std::string host_name() {
+  std::array<char, 65> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
+  std::string host = name.data();
+  std::replace_if(
+      host.begin(), host.end(), [](char c) { return c == '.' || c == '/'; }, '-');
+  return host;
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+struct Writer {
+  std::string host;
+  pid_t process = 0;
+};
+
+/// Who writes under this name; empty if it is not a temporary one.
+std::optional<Writer> writer_of(const std::string& name) {
+  if (!name.starts_with('.')) return {};
+  std::array<std::string, 4> parts;  // host, process, counter, "tmp"
+  std::size_t end = name.size();
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    const std::size_t dot = end == 0 ? std::string::npos : name.rfind('.', end - 1);
+    if (dot == std::string::npos) return {};
+    *part = name.substr(dot + 1, end - dot - 1);
+    end = dot;
+  }
+  const auto& [host, process, counter, extension] = parts;
+  if (end == 0 || extension != "tmp" || !is_number(process) || !is_number(counter)) return {};
+  return Writer{host, static_cast<pid_t>(std::stol(process))};
+}
+
+bool is_alive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
+
+bool is_old(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(path, error);
+  return !error && std::filesystem::file_time_type::clock::now() - written > kOld;
 }
 
 }  // namespace
@@ -94,17 +144,19 @@ void write_whole_file(const std::filesystem::path& path, const std::string& byte
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
   static std::atomic<int> counter{0};
-  return path.parent_path() / fmt::format(".{}.{}.{}.tmp", path.filename().string(), getpid(), counter++);
+  const std::string name = path.filename().string().substr(0, kLongestName);
+  return path.parent_path() / fmt::format(".{}.{}.{}.{}.tmp", name, host_name(), getpid(), counter++);
 }
 
-void remove_leftovers(const std::filesystem::path& path) {
-  const std::string begin = "." + path.filename().string() + ".";
+void remove_leftovers(const std::filesystem::path& folder) {
+  const std::string host = host_name();
   std::error_code ignored;
   std::vector<std::filesystem::path> leftovers;
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(begin) && name.ends_with(".tmp")) leftovers.push_back(entry.path());
+    const std::optional<Writer> writer = writer_of(entry.path().filename().string());
+    if (!writer) continue;
+    const bool is_dead = writer->host == host && !is_alive(writer->process);
+    if (is_dead || is_old(entry.path())) leftovers.push_back(entry.path());
   }
   for (const std::filesystem::path& leftover : leftovers) std::filesystem::remove(leftover, ignored);
 }

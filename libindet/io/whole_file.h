@@ -29,10 +29,13 @@ class WholeFile {
 /// All at once.
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes);
 
-/// The name that a file is written under until it is whole: .NAME.PID.COUNTER.tmp, new with every call.
+/// The name that a file is written under until it is whole: .NAME.HOST.PROCESS.COUNTER.tmp, new with every
+/// call. A long NAME is cut, and a dot in HOST is written as −.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
-/// Removes what writers of this file left behind when they were killed. Not while somebody else writes it.
-void remove_leftovers(const std::filesystem::path& path);
+/// Removes from a folder the temporary files of writers that were killed: those of this host whose process is
+/// no longer alive, and, since other hosts cannot be asked, all that are older than a day. The files of
+/// writers at work stay, in whatever process. Precondition: hosts of one name see each other's processes.
+void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace indet

@@ -4,7 +4,9 @@ Argument: the indet executable.
 """
 
 import json
+import os
 import pathlib
+import pty
 import signal
 import subprocess
 import sys
@@ -92,7 +94,12 @@ class EnsembleTest(program.ProgramTest):
         self.assertEqual(json.loads(self.ensemble("e", "--json").stdout)["skipped"], 8)
         damaged = self.folder / "e/members/md1-0000.h5"
         damaged.write_bytes(damaged.read_bytes()[:3000])
-        again = json.loads(self.ensemble("e", "--json").stdout)
+        listed = json.loads(self.ensemble("e", "--dry-run", "--json").stdout)["members"]
+        self.assertEqual([member["name"] for member in listed if not member["done"]], ["md1-0000"])
+        done = self.ensemble("e", "--json")
+        self.assertIn("warning: e/members/md1-0000.h5: ", done.stderr)
+        self.assertIn("it is computed again", done.stderr)
+        again = json.loads(done.stdout)
         self.assertEqual((again["done"], again["skipped"]), (1, 7))
         other = json.loads(self.ensemble("e", "--mu", "0.5", "--json").stdout)
         self.assertEqual(other["done"], 8)
@@ -117,6 +124,9 @@ class EnsembleTest(program.ProgramTest):
         self.run_indet("verify", damaged)
         self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
         self.assertIn("is in two parts", self.run_indet("merge", "p0", "p1", "p2", "p3", "whole", "-o", "n", status=3).stderr)
+        (self.folder / "p1/members/cd2-0000.h5").write_bytes(b"damaged")
+        missing = self.run_indet("merge", "p1", "-o", "o", status=3).stderr
+        self.assertIn("cd2-0000 (p1/members/cd2-0000.h5: cannot be opened", missing)
         self.run_indet("merge", "p0", "-o", "some", "--allow-missing", status=5)
         with h5py.File(self.folder / "some/ensemble.h5") as file:
             self.assertEqual(len(file["ensemble/missing"]), 6)
@@ -199,23 +209,61 @@ class EnsembleTest(program.ProgramTest):
         (self.folder / "e/members/bad.h5").mkdir(parents=True)  # cannot be written
         done = self.run_indet("ensemble", "good.h5", "bad.h5", "-o", "e", status=5)
         self.assertIn("bad: ", done.stderr)
+        self.assertIn("e/members/bad.h5: is not a file", done.stderr)
         self.assertIn("missing: bad", done.stdout)
         self.assertEqual(list(table(self.folder / "e/ensemble.h5", "runs")["member"]), [b"good"])
 
-    def test_an_interrupt_leaves_whole_files(self):
-        process = subprocess.Popen([program.INDET, "ensemble", "--seeds", "20", "-o", "e"], cwd=self.folder,
-                                   stderr=subprocess.PIPE, text=True)
-        while not list((self.folder / "e/members").glob("*.h5")):
-            self.assertIsNone(process.poll(), "it ended before its first packing")
+    def interrupt(self, *arguments, after):
+        """Sends SIGINT once there are `after` packings; returns the message and how many there are then."""
+        process = subprocess.Popen([program.INDET, "ensemble", *arguments, "-o", "e"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while len(list((self.folder / "e/members").glob("*.h5"))) < after:
+            self.assertIsNone(process.poll(), "it ended before the interrupt")
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
-        _, error = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        output, error = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, output), (128 + signal.SIGINT, ""), error)
+        return error, len(list((self.folder / "e/members").glob("*.h5")))
+
+    def test_an_interrupt_leaves_whole_files_and_says_how_many(self):
+        for number in (1, 4):  # of which the first ones are there already
+            error, done = self.interrupt("--seeds", "20", after=number)
+            verb = "is" if done == 1 else "are"
+            self.assertEqual(error, f"indet: interrupted; {done} of 80 packings {verb} done; the same command goes on\n")
         self.assertFalse((self.folder / "e/ensemble.h5").exists())
         for path in (self.folder / "e/members").iterdir():
             self.assertEqual(path.suffix, ".h5", error)
             with h5py.File(path) as file:
                 self.assertEqual(file.attrs["complete"], 1)
+
+    def test_progress_counts_the_packings_that_are_there_already(self):
+        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", "--threads", "1", "-o", "e"]
+        self.run_indet(*arguments, "--members", "0")
+        here, terminal = pty.openpty()
+        process = subprocess.Popen([program.INDET, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)
+        os.close(terminal)
+        shown = b""
+        while b"of 3 packings" not in shown and process.poll() is None:
+            shown += os.read(here, 1000)
+        self.assertIn(b"1 of 3 packings", shown)
+        process.kill()
+        process.wait()
+        os.close(here)
+
+    def test_processes_share_a_folder(self):
+        arguments = ["ensemble", "--seeds", "4", *TINY[2:]]
+        self.run_indet(*arguments, "-o", "alone")
+        started = [subprocess.Popen([program.INDET, *arguments, "-o", "e", "--threads", "2", "--json"], cwd=self.folder,
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
+        for process in started:
+            output, error = process.communicate(timeout=120)
+            self.assertEqual((process.returncode, error), (0, ""))
+            report = json.loads(output)
+            self.assertEqual((report["done"] + report["skipped"], report["missing"]), (16, []))
+        self.assertEqual(content(self.folder / "e/ensemble.h5"), content(self.folder / "alone/ensemble.h5"))
+        for path in (self.folder / "e/members").iterdir():
+            self.assertEqual(content(path), content(self.folder / "alone/members" / path.name))
+        self.assertEqual(len(list((self.folder / "e").rglob("*"))), 19)  # two files, the folder, and the members
 
     def test_a_folder_of_an_earlier_version_is_refused_until_it_is_renamed(self):
         self.ensemble("e")
@@ -235,7 +283,7 @@ class EnsembleTest(program.ProgramTest):
     def test_a_dry_run_lists_members_and_writes_nothing(self):
         out = self.ensemble("e", "--dry-run").stdout
         self.assertIn("md2-0001", out)
-        self.assertIn("8 packings, about", out)
+        self.assertIn("8 packings to compute, about", out)
         self.assertEqual(self.files(), [])
 
     def test_wrong_usage(self):

@@ -7,7 +7,6 @@
 
 #include "libindet/base/error.h"
 #include "libindet/io/ranges_file.h"
-#include "libindet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -69,18 +68,26 @@ void write_member(const std::filesystem::path& path, const Member& member, const
   write_provenance_part(file, all);
   write_work_part(file, result.ranges);
   seal(file);
-  remove_leftovers(path);
+}
+
+MemberState examine_member(const std::filesystem::path& path, const Member& member) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    if (!error) return {MemberStatus::kAbsent};
+    return {MemberStatus::kUnreadable, fmt::format("{}: {}", path.string(), error.message())};
+  }
+  try {
+    const Hdf5File file = open_indet_file(path);
+    if (file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == member.hash)
+      return {MemberStatus::kDone};
+    return {MemberStatus::kOther, fmt::format("{}: is of another configuration", path.string())};
+  } catch (const InputError& unreadable) {
+    return {MemberStatus::kUnreadable, unreadable.what()};
+  }
 }
 
 bool member_is_done(const std::filesystem::path& path, const Member& member) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return false;
-  try {
-    const Hdf5File file = open_indet_file(path);
-    return file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == member.hash;
-  } catch (const InputError&) {
-    return false;
-  }
+  return examine_member(path, member).status == MemberStatus::kDone;
 }
 
 }  // namespace indet

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -15,7 +16,21 @@ namespace indet {
 void write_member(const std::filesystem::path& path, const Member& member, const MemberResult& result,
                   const Provenance& provenance);
 
-/// True if the file is there, opens, is complete and carries the hash of the member.
+/// How the file of a member stands.
+enum class MemberStatus : std::uint8_t {
+  kAbsent,
+  kOther,       ///< It is of another configuration, or of no ensemble.
+  kUnreadable,  ///< It cannot be opened, or is not complete.
+  kDone,        ///< It is complete and carries the hash of the member.
+};
+
+struct MemberState {
+  MemberStatus status = MemberStatus::kAbsent;
+  std::string reason = {};  ///< Why it does not count, with the path; of kOther and kUnreadable.
+};
+
+MemberState examine_member(const std::filesystem::path& path, const Member& member);
+
 bool member_is_done(const std::filesystem::path& path, const Member& member);
 
 }  // namespace indet

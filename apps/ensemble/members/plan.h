@@ -61,20 +61,4 @@ std::string simulated_name(sim::Protocol protocol, std::int64_t seed);
 sim::Scene scene_of(const EnsembleConfig& config, const Member& member);
 sim::SimulationOptions simulation_options_of(const EnsembleConfig& config, sim::Protocol protocol);
 
-/// Throws InputError if the members of this folder lie in units/, where earlier versions put them.
-void check_layout(const std::filesystem::path& folder);
-
-/// FOLDER/ensemble.toml: which members an ensemble has, so that parts can be joined and missing ones be
-/// named.
-void write_plan(const std::filesystem::path& folder, const Plan& plan);
-/// Throws InputError. `config` of the members is not stored.
-Plan read_plan(const std::filesystem::path& folder);
-
-/// FOLDER/members, with one file a member.
-std::filesystem::path members_folder(const std::filesystem::path& folder);
-std::filesystem::path member_path(const std::filesystem::path& folder, const std::string& name);
-/// Those of all members in each of the folders, whether there is a file or not.
-std::vector<std::filesystem::path> member_paths(const std::vector<std::filesystem::path>& folders,
-                                                const Plan& plan);
-
 }  // namespace indet

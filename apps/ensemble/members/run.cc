@@ -8,11 +8,15 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <random>
 #include <thread>
 
+#include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
 #include "libindet/base/error.h"
+#include "libindet/base/random.h"
 #include "libindet/base/worker_team.h"
+#include "libindet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -28,13 +32,19 @@ class Batch {
     const int last = options.last < 0 ? static_cast<int>(plan.members.size()) - 1 : options.last;
     for (const Member& member : plan.members) {
       if (member.number < options.first || member.number > last) continue;
-      if (member_is_done(member_path(folder, member.name), member)) {
+      const MemberState state = examine_member(member_path(folder, member.name), member);
+      if (state.status == MemberStatus::kUnreadable && options.warn)
+        options.warn(state.reason + "; it is computed again");
+      if (state.status == MemberStatus::kDone) {
         ++summary_.skipped;
       } else {
         open_.push_back(&member);
         total_cost_ += member.cost;
       }
     }
+    asked_ = open_.size() + static_cast<std::size_t>(summary_.skipped);
+    Random random(std::random_device{}());
+    for (std::size_t i = open_.size(); i > 1; --i) std::swap(open_[i - 1], open_[random.below(i)]);
     std::stable_sort(open_.begin(), open_.end(),
                      [](const Member* a, const Member* b) { return a->cost > b->cost; });
   }
@@ -56,8 +66,8 @@ class Batch {
     });
     watch();
     driver.join();
-    if (stop_) throw Interrupted();
     if (failure) std::rethrow_exception(failure);
+    summary_.interrupted = stop_;
     std::sort(summary_.failures.begin(), summary_.failures.end(),
               [](const MemberFailure& a, const MemberFailure& b) { return a.member < b.member; });
     return summary_;
@@ -70,7 +80,7 @@ class Batch {
     while (!finished_) {
       changed_.wait_for(lock, milliseconds(100));
       const std::string details =
-          fmt::format("{} of {} packings{}", summary_.done, open_.size(),
+          fmt::format("{} of {} packings{}", summary_.done + summary_.skipped, asked_,
                       summary_.failures.empty() ? "" : fmt::format(", {} failed", summary_.failures.size()));
       const Progress progress{.stage = "ensemble",
                               .done = static_cast<std::int64_t>(1000 * done_cost_),
@@ -84,10 +94,16 @@ class Batch {
 
   void work(const Member& member) {
     try {
+      if (is_done_now(member)) {
+        count(member, summary_.skipped);
+        return;
+      }
       const MemberResult result = compute_member(config_, member, source(member), start(member),
                                                  [this](const Progress&) { return !stop_; });
-      const std::scoped_lock lock(hdf5_);
-      write_member(member_path(folder_, member.name), member, result, options_.provenance);
+      if (!is_done_now(member)) {
+        const std::scoped_lock lock(hdf5_);
+        write_member(member_path(folder_, member.name), member, result, options_.provenance);
+      }
     } catch (const Interrupted&) {
       return;
     } catch (const std::exception& error) {
@@ -96,9 +112,19 @@ class Batch {
       done_cost_ += member.cost;
       return;
     }
+    count(member, summary_.done);
+  }
+
+  void count(const Member& member, int& counter) {
     const std::scoped_lock lock(mutex_);
-    ++summary_.done;
+    ++counter;
     done_cost_ += member.cost;
+  }
+
+  /// Another process may have done it meanwhile.
+  bool is_done_now(const Member& member) {
+    const std::scoped_lock lock(hdf5_);
+    return member_is_done(member_path(folder_, member.name), member);
   }
 
   std::optional<Packing> source(const Member& member) {
@@ -124,6 +150,7 @@ class Batch {
   const std::filesystem::path& folder_;
   const RunOptions& options_;
   std::vector<const Member*> open_;
+  std::size_t asked_ = 0;  ///< Members of this run, those included that were done before.
   double total_cost_ = 0;
   std::mutex hdf5_;
   std::mutex mutex_;  ///< Guards the members below.
@@ -139,6 +166,8 @@ class Batch {
 RunSummary compute_members(const EnsembleConfig& config, const Plan& plan,
                            const std::filesystem::path& folder, const RunOptions& options) {
   std::filesystem::create_directories(members_folder(folder));
+  remove_leftovers(folder);
+  remove_leftovers(members_folder(folder));
   return Batch(config, plan, folder, options).run();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct RunOptions {
   int first = 0;  ///< Members first … last of the plan.
   int last = -1;  ///< −1: to the end.
   ProgressCallback progress;
+  std::function<void(const std::string&)> warn;  ///< Told what is computed again, and why.
   Provenance provenance;
 };
 
@@ -25,14 +27,20 @@ struct MemberFailure {
 
 struct RunSummary {
   int done = 0;     ///< Computed now.
-  int skipped = 0;  ///< Found complete, with the same configuration.
+  int skipped = 0;  ///< Found complete, with the same configuration, at the start or when its turn came.
   std::vector<MemberFailure> failures;
+  bool interrupted = false;  ///< The callback asked to stop; the rest is not done.
 };
 
 /// Computes the members of a plan that are not done yet, the most expensive first, and writes one file for
-/// each to FOLDER/members. Members run in parallel, each on one thread; only one thread at a time is in HDF5.
-/// What fails is listed and does not stop the others. Throws Interrupted if the callback asks to stop: files
-/// that exist are whole, and another call goes on from there.
+/// each to FOLDER/members. Members are computed in parallel, each on one thread; only one thread at a time is
+/// in HDF5. What fails is listed and does not stop the others; what was interrupted is gone on with by
+/// another call.
+///
+/// Any number of processes, on any hosts that share the folder, may do this at the same time. The files are
+/// all that they share: one that exists is whole and is left as it is. Each process takes members of equal
+/// cost in an order of its own and passes over those that another one has done meanwhile, so that few are
+/// computed twice, with the same result.
 RunSummary compute_members(const EnsembleConfig& config, const Plan& plan,
                            const std::filesystem::path& folder, const RunOptions& options);
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/ensemble/presentation/samples.h"
+#include "apps/ensemble/tables/ensemble_tables.h"
 #include "apps/ensemble/tables/figure.h"
-#include "apps/ensemble/tables/table.h"
 #include "libindet/statistics/distribution.h"
 
 namespace indet {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/ensemble/tables/table.h"
+#include "apps/ensemble/tables/ensemble_tables.h"
 #include "libindet/statistics/distribution.h"
 #include "libsim/protocol.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/tables/ensemble_tables.h"
 #include "apps/ensemble/tables/figure.h"
-#include "apps/ensemble/tables/table.h"
 
 namespace indet {
 

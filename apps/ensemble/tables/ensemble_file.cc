@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "libindet/base/error.h"
-#include "libindet/io/whole_file.h"
 
 namespace indet {
 namespace {
@@ -64,7 +63,6 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   file.write_strings("/provenance/failures/member", members, {"1", "name of the packing"});
   file.write_strings("/provenance/failures/reason", reasons, {"1", "why there is none"});
   seal(file);
-  remove_leftovers(path);
 }
 
 EnsembleContents read_ensemble(const Hdf5File& file) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/tables/ensemble_tables.h"
 #include "apps/ensemble/tables/figure.h"
-#include "apps/ensemble/tables/table.h"
 #include "libindet/io/packing_file.h"
 
 namespace indet {

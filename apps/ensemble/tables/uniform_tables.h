@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "apps/ensemble/tables/table.h"
+#include "apps/ensemble/tables/ensemble_tables.h"
 #include "libindet/io/hdf5_file.h"
 
 namespace indet {
