@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/presentation/figures.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/terminal.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "apps/ensemble/members/plan.h"
+#include "apps/ensemble/members/folder.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/io/file_kind.h"
@@ -75,10 +75,14 @@ void refuse_text(const fs::path& path) {
 }  // namespace
 
 Hdf5File open_packing_or_ensemble(const fs::path& path) {
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) refuse_folder(path);
-  if (fs::is_regular_file(path, ignored)) refuse_text(path);
-  return open_on_trial(path);
+  try {
+    return open_on_trial(path);
+  } catch (const InputError&) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) refuse_folder(path);
+    if (fs::is_regular_file(path, ignored)) refuse_text(path);
+    throw;
+  }
 }
 
 Hdf5File open_packing(const fs::path& path) {

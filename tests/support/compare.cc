@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -87,6 +88,19 @@ AssertionResult same_entries(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
   return AssertionSuccess();
 }
 
+namespace {
+
+bool same_solver_states(const std::optional<SolverStates>& a, const std::optional<SolverStates>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  const auto same = [](const auto& first, const auto& second) {
+    return first.rows() == second.rows() && first.cols() == second.cols() &&
+           (first.array() == second.array()).all();
+  };
+  return same(a->states, b->states) && same(a->vertex, b->vertex);
+}
+
+}  // namespace
+
 AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
   const std::vector<FieldBytes> first = bytes_of(a);
   const std::vector<FieldBytes> second = bytes_of(b);
@@ -100,6 +114,8 @@ AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
       return AssertionFailure() << x.name << " (" << x.rows << " × " << x.columns << ") differs at byte "
                                 << here - x.bytes.begin() << " of " << x.bytes.size();
   }
+  if (!same_solver_states(a.solver_states, b.solver_states))
+    return AssertionFailure() << "the solver's states differ";
   return AssertionSuccess();
 }
 

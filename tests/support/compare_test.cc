@@ -90,6 +90,12 @@ TEST(Compare, SameBytesSeesAChangeOfEveryField) {
   changed = ranges;
   changed.seconds["ranges"] += 1;
   EXPECT_TRUE(same_bytes(ranges, changed));
+  changed.solver_states = SolverStates{ranges.states, ranges.vertex};
+  EXPECT_FALSE(same_bytes(ranges, changed));
+  ForceRanges other = changed;
+  EXPECT_TRUE(same_bytes(changed, other));
+  other.solver_states->vertex(0, 0) += 1;
+  EXPECT_FALSE(same_bytes(changed, other));
 }
 
 /// Whatever is larger than padding between two fields of the list is a field that is not in it.
@@ -111,6 +117,7 @@ TEST(Compare, TheListHasEveryField) {
   });
   mark(ranges.value);  // visited by columns
   mark(ranges.seconds);
+  mark(ranges.solver_states);  // of the search alone, in no file
   std::size_t unknown = 0;
   for (std::size_t k = 0; k < known.size(); ++k) {
     unknown = known[k] ? 0 : unknown + 1;

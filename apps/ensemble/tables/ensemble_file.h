@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/members/run.h"
 #include "apps/ensemble/tables/ensemble_tables.h"
 #include "apps/ensemble/tables/figure.h"
 #include "libindet/io/packing_file.h"
