@@ -30,7 +30,11 @@ case ${1:-} in
     export LSAN_OPTIONS="suppressions=$PWD/cmake/leak-suppressions.txt:print_suppressions=0"
     run_tests sanitize
     ;;
-  --long) configure release && cmake --build --preset release -- --quiet && ctest --test-dir build/release --label-regex long --output-on-failure ;;
+  --long)
+    cmake --preset bench >/dev/null
+    cmake --build --preset bench -- --quiet
+    ctest --test-dir build/release --label-regex long --output-on-failure
+    ;;
   --tidy)
     configure release
     git ls-files 'libindet/*.cc' 'libsim/*.cc' 'apps/*.cc' |

@@ -13,7 +13,7 @@ namespace indet::app {
 namespace {
 
 /// All of the text as a number ≥ 0.
-std::optional<int> parse_number(const std::string& text) {
+std::optional<int> parse_count(const std::string& text) {
   int number = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -32,8 +32,8 @@ std::vector<int> parse_list(const std::string& text, int contacts) {
   std::istringstream items(text);
   for (std::string item; std::getline(items, item, ',');) {
     const std::size_t dash = item.find('-');
-    const std::optional<int> first = parse_number(item.substr(0, dash));
-    const std::optional<int> last = dash == std::string::npos ? first : parse_number(item.substr(dash + 1));
+    const std::optional<int> first = parse_count(item.substr(0, dash));
+    const std::optional<int> last = dash == std::string::npos ? first : parse_count(item.substr(dash + 1));
     if (!first || !last || *last < *first) refuse_contacts(text);
     if (*last >= contacts) {
       throw UsageError(
@@ -51,7 +51,7 @@ ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
   ContactChoice choice;
   const std::string prefix = "sample:";
   if (text.starts_with(prefix)) {
-    const std::optional<int> size = parse_number(text.substr(prefix.size()));
+    const std::optional<int> size = parse_count(text.substr(prefix.size()));
     if (!size || *size == 0) refuse_contacts(text);
     choice.kind = ContactChoice::Kind::kSample;
     choice.sample_size = *size;

@@ -28,7 +28,7 @@
 namespace indet::app {
 namespace {
 
-struct Options {
+struct AnalyzeCommand {
   std::string packing;
   std::string output;
   bool overwrite = false;
@@ -284,7 +284,7 @@ ForceRanges prove(const Packing& packing, const Context& context, const ForceRan
   return proven;
 }
 
-int run(const Options& options, const Context& context) {
+int run(const AnalyzeCommand& options, const Context& context) {
   const Packing packing = read_packing(open_packing(options.packing));
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
@@ -316,7 +316,7 @@ int run(const Options& options, const Context& context) {
 Command add_analyze(CLI::App& root) {
   CLI::App* command = root.add_subcommand(
       "analyze", "Find the smallest and largest value of every contact force of a packing");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AnalyzeCommand>();
   command->add_option("packing", options->packing, "HDF5 file of a packing, from simulate or import")
       ->required()
       ->type_name("P.h5");

@@ -25,7 +25,7 @@ constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kP
 /// Extremal states that differ by less than this, relative to max(1, ‖F‖) in mg, are the same state.
 constexpr double kSameState = 1e-6;
 
-struct Options {
+struct CompareCommand {
   std::string packing;
   double tolerance = 1e-8;
   AnalysisArguments arguments;
@@ -201,7 +201,7 @@ double common_seconds(const std::vector<Entry>& entries) {
   return least;
 }
 
-int run(const Options& options, const Context& context) {
+int run(const CompareCommand& options, const Context& context) {
   const Packing packing = read_packing(open_packing(options.packing));
   start_libraries(packing);
   std::vector<Entry> entries;
@@ -253,7 +253,7 @@ Command add_compare(CLI::App& root) {
   CLI::App* command = root.add_subcommand("compare",
                                           "Find the ranges of a packing by each --method of analyze, and "
                                           "compare values, extremal states, pivots and times");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareCommand>();
   command->add_option("packing", options->packing, "HDF5 file of a packing, from simulate or import")
       ->required()
       ->type_name("P.h5");

@@ -130,7 +130,7 @@ void print(const std::string& path, const std::vector<Part>& parts, const Verifi
   list("not computed again, guarded by the digest alone", total.unchecked);
 }
 
-struct Options {
+struct VerifyCommand {
   std::string file;
   bool exact = false;
 };
@@ -166,7 +166,7 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
                check.worst_certified_error);
 }
 
-int run(const Options& options, const Context& context) {
+int run(const VerifyCommand& options, const Context& context) {
   const std::string& path = options.file;
   const Hdf5File file = open_packing(path);
   const std::vector<Part> parts = verify_file(file, context);
@@ -214,7 +214,7 @@ Command add_verify(CLI::App& root) {
   CLI::App* command = root.add_subcommand("verify",
                                           "Re-check the ranges and samples of a file from its packing alone, "
                                           "by other means than those that made them");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VerifyCommand>();
   command->add_option("file", options->file, "The file to check")->required()->type_name("FILE.h5");
   command->add_flag(
       "--exact", options->exact,

@@ -13,6 +13,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(indet_options INTERFACE -Wno-maybe-uninitialized -Wno-null-dereference -Wno-restrict
     -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # The compiler collects garbage from 512 MB on, not from 128 MB: a tenth less time.
+  target_compile_options(indet_options INTERFACE "SHELL:--param ggc-min-heapsize=524288")
+endif()
+if(CMAKE_UNITY_BUILD)
+  # Meant for headers: a class of one source file may have members of types in an anonymous namespace.
+  target_compile_options(indet_options INTERFACE -Wno-subobject-linkage)
+endif()
 
 # For targets that read options, print and compare, and leave the computing to others: a third less compilation.
 function(indet_optimise_little target)

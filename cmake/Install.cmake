@@ -15,6 +15,8 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/indetConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/indetConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/indetConfig.cmake ${PROJECT_BINARY_DIR}/indetConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindGLPK.cmake ${PROJECT_SOURCE_DIR}/cmake/FindGMP.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindLAPACKE.cmake ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake
   DESTINATION ${config_dir})
+# The documents link to each other as they do in the source folder.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

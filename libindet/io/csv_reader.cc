@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/io/table.h"
 #include "libindet/packing/validate.h"
@@ -20,8 +21,6 @@ namespace indet {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// scene.toml
 struct Scene {

@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One number of each item.
 template <class T, class Item, class Get>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
+#include "libindet/dense/lu.h"
 #include "libindet/lp/feasible_set.h"
 
 namespace indet {

@@ -1,12 +1,11 @@
 #include "libindet/nullspace/null_space.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/nullspace/lapack.h"
 #include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
@@ -35,25 +34,23 @@ double norm_bound(const Eigen::SparseMatrix<double>& matrix) {
 /// Replaces the sparse result by one from the singular values.
 void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& b,
                                double scale, NullSpace& result) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(matrix),
-                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
+  const SingularValueDecomposition svd = decompose_singular_values(Eigen::MatrixXd(matrix));
+  const Eigen::VectorXd& sigma = svd.sigma;
   result.singular_values = sigma;
   const auto accepted = [&](double value) { return value > tolerance::kRankReject * scale; };
   result.rank = static_cast<int>(std::count_if(sigma.begin(), sigma.end(), accepted));
   result.nullity = static_cast<int>(matrix.cols()) - result.rank;
-  result.basis = svd.matrixV().rightCols(result.nullity);
+  result.basis = svd.V.rightCols(result.nullity);
   result.smallest_accepted =
       result.rank > 0 ? sigma[result.rank - 1] : std::numeric_limits<double>::infinity();
   result.largest_rejected = result.rank < sigma.size() ? sigma[result.rank] : 0;
   result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
                      result.largest_rejected > tolerance::kNoise * scale;
 
-  const Eigen::VectorXd projected = svd.matrixU().leftCols(result.rank).transpose() * b;
-  result.particular = svd.matrixV().leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rows(Eigen::MatrixXd(matrix.transpose()));
-  result.independent_rows.assign(rows.colsPermutation().indices().begin(),
-                                 rows.colsPermutation().indices().begin() + result.rank);
+  const Eigen::VectorXd projected = svd.U.leftCols(result.rank).transpose() * b;
+  result.particular = svd.V.leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
+  result.independent_rows = column_order(Eigen::MatrixXd(matrix.transpose()));
+  result.independent_rows.resize(static_cast<std::size_t>(result.rank));
   std::sort(result.independent_rows.begin(), result.independent_rows.end());
 }
 

@@ -1,11 +1,11 @@
 #include "libindet/pivoting/interior_start.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/qr.h"
 
 namespace indet {
 namespace {
@@ -32,11 +32,11 @@ double way_ahead(const Eigen::VectorXd& x, const Eigen::VectorXd& rate, const st
 bool leave_one(const FeasibleSet& set, const std::vector<int>& active, double epsilon, Eigen::VectorXd& z,
                Eigen::VectorXd& x) {
   const Eigen::MatrixXd rows = set.slope(active, Eigen::all);
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(rows);
+  const MinimumNormSolver solver(rows);
   for (std::size_t i = 0; i < active.size(); ++i) {
     const Eigen::VectorXd wanted =
         Eigen::VectorXd::Unit(static_cast<Eigen::Index>(active.size()), static_cast<Eigen::Index>(i));
-    const Eigen::VectorXd direction = decomposition.solve(wanted);
+    const Eigen::VectorXd direction = solver.solve(wanted);
     if ((rows * direction - wanted).lpNorm<Eigen::Infinity>() > tolerance::kLeavingDirection) continue;
     const Eigen::VectorXd rate = set.slope * direction;
     const double step = std::min(1.0, way_ahead(x, rate, active) / 2);
@@ -68,7 +68,7 @@ InteriorStart leave_sliding_contacts(const FeasibleSet& set, const Eigen::Vector
                                      double epsilon) {
   InteriorStart start;
   if (!simulated.allFinite()) return start;
-  Eigen::VectorXd z = set.slope.colPivHouseholderQr().solve(simulated - set.offset);
+  Eigen::VectorXd z = solve_least_squares_pivoted(set.slope, simulated - set.offset);
   Eigen::VectorXd x = set.offset + set.slope * z;
   const double scale = std::max(1.0, simulated.lpNorm<Eigen::Infinity>());
   if ((x - simulated).lpNorm<Eigen::Infinity>() > tolerance::kSimulatedState * scale ||

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/lu.h"
 
 namespace indet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Walks at N = 95 take some tens of steps.
 constexpr std::int64_t kStepLimit = 100000;
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// How far each improving edge reaches; +inf where nothing stops it.
 Eigen::VectorXd lengths(const Tableau& tableau, const std::vector<int>& columns) {

@@ -1,11 +1,11 @@
 #include "libindet/pivoting/tableau.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/lu.h"
 
 // The inner loops are compiled for wider registers too. Each element is computed by itself and without fused
 // multiply-add, so the width does not change a result.

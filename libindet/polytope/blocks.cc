@@ -1,11 +1,11 @@
 #include "libindet/polytope/blocks.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <numeric>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/qr.h"
 #include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
@@ -90,8 +90,7 @@ std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, 
       block.set.slope = whole.slope(block.edges, Eigen::all);
     } else {
       const Eigen::MatrixXd part = D(block.edges, columns);
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(part);
-      block.set.slope = qr.householderQ() * Eigen::MatrixXd::Identity(part.rows(), part.cols());
+      block.set.slope = factorise_qr(part).Q;
     }
     block.set.offset = whole.offset(block.edges);
     if (static_cast<int>(columns.size()) != d) {

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct StateResiduals {
   Eigen::VectorXd primal;  ///< Of each state, over the largest of its forces.

@@ -1,19 +1,18 @@
 #include "libindet/range/enclosure.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/lu.h"
 
 namespace indet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kU = 0x1p-53;      // unit roundoff
 constexpr double kTiny = 0x1p-600;  // above anything that underflow can lose
 /// Bounds are sums of few positive terms; this covers their own rounding.

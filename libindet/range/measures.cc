@@ -1,17 +1,15 @@
 #include "libindet/range/measures.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Where the simulated force lies between minimum (0) and maximum (1) [39].
 double relative_position(double simulated, double minimum, double maximum, double internal_unit) {

@@ -1,12 +1,12 @@
 #include "libindet/sampling/convex_body.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/qr.h"
 #include "libindet/polytope/interior.h"
 
 namespace indet {
@@ -52,12 +52,10 @@ ConvexBody make_body(const ForcePolytope& polytope) {
     }
     // F = … + J ζ = … + Q (U ζ): z = U ζ are orthonormal coordinates.
     const Eigen::MatrixXd jacobian = to_forces * spread;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-    body.frame.middleCols(place.first_column, place.columns) =
-        qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), place.columns);
-    const Eigen::MatrixXd upper = qr.matrixQR().topRows(place.columns);
+    const ThinQr qr = factorise_qr(jacobian);
+    body.frame.middleCols(place.first_column, place.columns) = qr.Q;
     const Eigen::MatrixXd turned =
-        upper.triangularView<Eigen::Upper>().transpose().solve(block.set.slope.transpose());
+        qr.R.triangularView<Eigen::Upper>().transpose().solve(block.set.slope.transpose());
     body.set.slope.block(place.first_row, place.first_column, place.rows, place.columns) = turned.transpose();
     body.set.offset.segment(place.first_row, place.rows) = block.set.offset;
     body.blocks.push_back(place);
@@ -108,16 +106,13 @@ AnalyticCenter find_analytic_center(const ConvexBody& body, const Eigen::VectorX
       const Eigen::VectorXd slacks = offset + slope * z;
       scaled = slacks.cwiseInverse().asDiagonal() * slope.rowwise().reverse();
       // The Newton direction (Sᵀ S)⁻¹ Sᵀ 1 is a least-squares solution.
-      const Eigen::VectorXd reversed =
-          Eigen::HouseholderQR<Eigen::MatrixXd>(scaled).solve(Eigen::VectorXd::Ones(block.rows));
+      const Eigen::VectorXd reversed = solve_least_squares(scaled, Eigen::VectorXd::Ones(block.rows));
       const double decrement = (scaled * reversed).norm();
       // The damped step 1/(1 + λ) stays inside the Dikin ellipsoid, and so inside the body.
       z += reversed.reverse() * (decrement < 0.25 ? 1.0 : 1 / (1 + decrement));
       if (!(decrement > tolerance::kNewtonDecrement)) break;
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
-    const Eigen::MatrixXd upper = qr.matrixQR().topRows(block.columns).triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd lower = upper.reverse();
+    const Eigen::MatrixXd lower = upper_factor(scaled).reverse();
     const Eigen::VectorXd signs = lower.diagonal().cwiseSign();
     center.root.block(block.first_column, block.first_column, block.columns, block.columns) =
         signs.asDiagonal() * lower;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The numbers that are compared, in the internal unit.
 struct Values {

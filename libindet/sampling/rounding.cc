@@ -1,12 +1,11 @@
 #include "libindet/sampling/rounding.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "libindet/base/error.h"
+#include "libindet/dense/symmetric.h"
 #include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
 #include "libindet/sampling/random_streams.h"
@@ -29,11 +28,10 @@ double apply_covariance(const ConvexBody& body, const Eigen::VectorXd& mean,
   for (const BodyBlock& block : body.blocks) {
     const Eigen::MatrixXd part =
         covariance.block(block.first_column, block.first_column, block.columns, block.columns);
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(part, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd values = eigenvalues_of(part);
     largest = std::max(largest, values[values.size() - 1]);
     smallest = std::min(smallest, values[0]);
-    const Eigen::MatrixXd root = part.llt().matrixL();
+    const Eigen::MatrixXd root = cholesky_factor(part);
     auto square =
         rounding.transform.block(block.first_column, block.first_column, block.columns, block.columns);
     square = (square * root).eval();

@@ -1,14 +1,14 @@
 #include "libindet/sampling/shape.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/error.h"
+#include "libindet/dense/symmetric.h"
 #include "libindet/lp/lp_solver.h"
 #include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
@@ -17,8 +17,6 @@
 
 namespace indet {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Finds the point of a body that lies farthest along a direction, block by block.
 class Support {
@@ -93,7 +91,7 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
       body.units.internal_in_weights();  // z and all lengths are in the internal unit until the end
   shape.inscribed_radius = unit * sample.ball.radius;
   const Eigen::MatrixXd centred = sample.z.colwise() - sample.z.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(centred * centred.transpose());
+  const Eigen::MatrixXd axes = eigenvectors_of(centred * centred.transpose());
   Support support(body, sample.ball.center, options.lp);
   std::vector<Eigen::VectorXd> points;
   double squares = 0;
@@ -102,7 +100,7 @@ PolytopeShape measure_shape(const ConvexBody& body, const UniformSample& sample,
   for (int i = 0; i < n + options.directions; ++i) {
     Eigen::VectorXd direction(n);
     if (i < n) {
-      direction = axes.eigenvectors().col(n - 1 - i);
+      direction = axes.col(n - 1 - i);
     } else {
       for (double& component : direction) component = random.normal();
       direction.normalize();

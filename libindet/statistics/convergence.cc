@@ -1,10 +1,11 @@
 #include "libindet/statistics/convergence.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+
+#include "libindet/statistics/probability_laws.h"
 
 namespace indet {
 namespace {
@@ -96,10 +97,9 @@ double sorted_quantile(std::span<const double> ascending, double q) {
 ChainAssessor::ChainAssessor(int chains, int length) : chains_(chains), length_(length), half_(length / 2) {
   const std::size_t total = 2 * static_cast<std::size_t>(chains_) * static_cast<std::size_t>(half_);
   scores_.resize(2 * total - 1);
-  const boost::math::normal standard;
   for (std::size_t i = 0; i < scores_.size(); ++i) {
     const double rank = 1 + 0.5 * static_cast<double>(i);
-    scores_[i] = boost::math::quantile(standard, (rank - 0.375) / (static_cast<double>(total) + 0.25));
+    scores_[i] = normal_quantile((rank - 0.375) / (static_cast<double>(total) + 0.25));
   }
 }
 

@@ -1,9 +1,10 @@
 #include "libindet/statistics/sample_estimate.h"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "libindet/statistics/probability_laws.h"
 
 namespace indet {
 namespace {
@@ -40,8 +41,7 @@ SampleEstimate estimate_from_sample(const std::vector<double>& values, int popul
   const double deviation = std::sqrt(squares / (count - 1));
   if (deviation == 0) return estimate;
   const double skewness = cubes / count / (deviation * deviation * deviation);
-  const double quantile =
-      boost::math::quantile(boost::math::students_t(count - 1), 0.5 + kConfidence / 2) / std::sqrt(count);
+  const double quantile = student_quantile(count - 1, 0.5 + kConfidence / 2) / std::sqrt(count);
   const double unit = deviation * std::sqrt(1 - fraction);
   estimate.low -= unit * invert_hall(quantile, skewness, count);
   estimate.high -= unit * invert_hall(-quantile, skewness, count);

@@ -1,9 +1,10 @@
 #include "libindet/statistics/two_sample.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <vector>
+
+#include "libindet/statistics/probability_laws.h"
 
 namespace indet {
 namespace {
@@ -70,9 +71,7 @@ TwoSampleTest compare_samples(const CorrelatedSample& a, const CorrelatedSample&
   const double freedom = variance * variance /
                          (in_a.variance_of_mean * in_a.variance_of_mean / (a.effective - 1) +
                           in_b.variance_of_mean * in_b.variance_of_mean / (b.effective - 1));
-  const boost::math::students_t student(freedom);
-  test.p_mean =
-      2 * boost::math::cdf(boost::math::complement(student, std::abs(test.difference) / test.error));
+  test.p_mean = student_two_sided(freedom, std::abs(test.difference) / test.error);
   return test;
 }
 

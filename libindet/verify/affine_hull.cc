@@ -1,7 +1,5 @@
 #include "libindet/verify/affine_hull.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +7,8 @@
 #include <vector>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/lu.h"
+#include "libindet/dense/qr.h"
 
 namespace indet {
 namespace {
@@ -53,7 +53,7 @@ std::optional<AffineHull> AffineHull::at(const RebuiltProblem& problem, const Ei
     if (slack <= tolerance::kHullRounding && length > tolerance::kHullRounding) tight.push_back(h);
   }
   Eigen::MatrixXd within = Eigen::MatrixXd::Identity(d, d);
-  if (!tight.empty() && d > 0) within = kernel_of(normals(tight, Eigen::all));
+  if (!tight.empty() && d > 0) within = kernel_basis(normals(tight, Eigen::all), tolerance::kRebuiltRank);
   return AffineHull(problem.kernel() * within, normals * within);
 }
 
@@ -67,11 +67,11 @@ bool AffineHull::freedom_is_clear() const {
 std::optional<int> AffineHull::blocks() const {
   const Eigen::Index d = directions_.cols();
   if (d == 0) return 0;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes_.transpose());
-  const auto& order = qr.colsPermutation().indices();
+  const std::vector<Eigen::Index> order = pivot_order(slopes_.transpose());
   Eigen::MatrixXd chosen(d, d);
-  for (Eigen::Index j = 0; j < d; ++j) chosen.row(j) = slopes_.row(order[j]);
-  const Eigen::MatrixXd coefficients = chosen.transpose().partialPivLu().solve(slopes_.transpose());
+  for (Eigen::Index j = 0; j < d; ++j) chosen.row(j) = slopes_.row(order[static_cast<std::size_t>(j)]);
+  const Eigen::MatrixXd coefficients =
+      Eigen::PartialPivLU<Eigen::MatrixXd>(chosen.transpose()).solve(slopes_.transpose());
 
   // Half-plane h is element h; the chosen ones stand for the coordinates.
   Groups groups(slopes_.rows());
@@ -81,7 +81,7 @@ std::optional<int> AffineHull::blocks() const {
       const double coefficient = std::abs(coefficients(j, h));
       if (!is_clear(coefficient)) return std::nullopt;
       if (coefficient <= tolerance::kHullRounding) continue;
-      groups.join(h, order[j]);
+      groups.join(h, order[static_cast<std::size_t>(j)]);
       moves[static_cast<std::size_t>(h)] = true;
     }
   }

@@ -1,20 +1,19 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/symmetric.h"
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/samples_part.h"
 
 namespace indet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Chains that have converged have no R̂ above this.
 constexpr double kLargestRhat = 1.01;
 
@@ -163,9 +162,8 @@ class ComponentsCheck {
     compare_.require(
         (covariance - D * within * D.transpose()).cwiseAbs().maxCoeff() <= tolerance::kSumAgreement * scale,
         "covariance: it has directions in which F does not extend");
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(within, Eigen::EigenvaluesOnly);
-    compare_.require(solver.eigenvalues().minCoeff() >= -tolerance::kSumAgreement * scale,
-                     "covariance: a variance is {}", solver.eigenvalues().minCoeff());
+    const double least = eigenvalues_of(within).minCoeff();
+    compare_.require(least >= -tolerance::kSumAgreement * scale, "covariance: a variance is {}", least);
   }
 
   /// Each is a state; their mean is as near to the centre as that of a part of the samples must be: of n

@@ -1,7 +1,8 @@
 #include "libindet/verify/estimate_check.h"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "libindet/statistics/probability_laws.h"
 
 namespace indet {
 
@@ -24,8 +25,7 @@ void check_estimate(const SampleEstimate& stored, const std::vector<double>& val
   const bool has_interval = left_out > 0 && count >= kFewestForInterval && std::isfinite(mean);
   if (has_interval && s > 0) {
     const double skewness = leaning / (2 * count * count * s * s * s);
-    const double quantile = boost::math::quantile(
-        boost::math::complement(boost::math::students_t(count - 1), (1 - kConfidence) / 2));
+    const double quantile = student_quantile(count - 1, (1 + kConfidence) / 2);
     const auto transformed = [&](double end) {
       const double w = (mean - end) / (s * std::sqrt(left_out));
       return w + skewness * w * w / 3 + skewness * skewness * w * w * w / 27 + skewness / (6 * count);

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/base/worker_team.h"
 #include "libindet/exact/optimum.h"
@@ -22,8 +22,6 @@ using exact::ContactProblem;
 using exact::Goal;
 using exact::Optimum;
 using exact::Verdict;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct ObjectiveId {
   Eigen::Index contact;

@@ -1,9 +1,9 @@
 #include "libindet/verify/nonnegative.h"
 
-#include <Eigen/QR>
 #include <vector>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/qr.h"
 
 namespace indet {
 namespace {
@@ -14,7 +14,7 @@ Eigen::VectorXd solve_passive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
   Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
   if (!passive.empty()) {
     const Eigen::MatrixXd columns = A(Eigen::all, passive);
-    y(passive) = columns.colPivHouseholderQr().solve(b);
+    y(passive) = solve_least_squares_pivoted(columns, b);
   }
   return y;
 }

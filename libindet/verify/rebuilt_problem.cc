@@ -1,27 +1,15 @@
 #include "libindet/verify/rebuilt_problem.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/dense/lu.h"
+#include "libindet/dense/qr.h"
 #include "libindet/verify/nonnegative.h"
 
 namespace indet {
-Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints) {
-  if (constraints.cols() == 0) return Eigen::MatrixXd(0, 0);
-  if (constraints.rows() == 0) return Eigen::MatrixXd::Identity(constraints.cols(), constraints.cols());
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(tolerance::kRebuiltRank);
-  qr.compute(constraints.transpose());
-  const Eigen::Index nullity = constraints.cols() - qr.rank();
-  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(constraints.cols(), nullity);
-  last.bottomRows(nullity).setIdentity();
-  last.applyOnTheLeft(qr.householderQ());
-  return last;
-}
 
 RebuiltProblem::RebuiltProblem(const Packing& packing)
     : packing_(packing),
@@ -55,7 +43,7 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(frictionless.size()), matrix_.cols());
   for (std::size_t i = 0; i < frictionless.size(); ++i)
     constraints(matrix_.rows() + static_cast<Eigen::Index>(i), frictionless[i]) = 1;
-  kernel_ = kernel_of(constraints);
+  kernel_ = kernel_basis(constraints, tolerance::kRebuiltRank);
 }
 
 double RebuiltProblem::imbalance_without_load(const Eigen::VectorXd& forces) const {

@@ -7,10 +7,6 @@
 
 namespace indet {
 
-/// Orthonormal columns that span {z : constraints · z = 0}, by column-pivoted Householder QR; directions
-/// below tolerance::kRebuiltRank of the largest pivot count as zero.
-Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& constraints);
-
 /// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
 /// solved with other means than the analysis uses: a dense contact matrix [15] with all 2M columns (T is held
 /// at 0 where μ = 0 by a row of its own), and its kernel by column-pivoted Householder QR. Forces in units of

@@ -1,17 +1,15 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/samples_part.h"
 
 namespace indet {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Percentages of the samples whose value is smaller than that of the simulated state.
 constexpr std::array kPercentiles = {"start_distance_percentile", "start_norm_percentile",

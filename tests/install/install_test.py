@@ -45,6 +45,33 @@ class Install(unittest.TestCase):
         if shutil.which("help2man"):
             self.assertIn("share/man/man1/indet-analyze.1", installed)
 
+    def test_links_between_the_installed_documents_lead_somewhere(self):
+        folder = self.prefix / "share/doc/indet"
+        documents = [folder / "README.md", *(folder / "docs").rglob("*.md")]
+        self.assertGreater(len(documents), 20)
+        links = 0
+        for document in documents:
+            text = re.sub(r"```.*?```", "", document.read_text(), flags=re.DOTALL)
+            for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<(?:img|a)\b[^>]*(?:src|href)="([^"]+)"', text):
+                if "://" in target or target.startswith("#"):
+                    continue
+                links += 1
+                self.assertTrue((document.parent / target.partition("#")[0]).exists(), f"{document}: {target}")
+        self.assertGreater(links, 50)
+
+    def test_the_target_indet_makes_all_that_is_installed(self):
+        """So that `cmake --install` works after ./run.sh, which builds nothing else."""
+        def ninja(*command):
+            return run("ninja", "-C", BUILD, *command).splitlines()
+        made = {line.rpartition(": ")[0] for line in ninja("-t", "targets", "all")}
+        of_indet = {"indet", *ninja("-t", "inputs", "indet")}
+        taken = set()
+        for script in pathlib.Path(BUILD).rglob("cmake_install.cmake"):
+            taken.update(re.findall(re.escape(BUILD) + r'/([^"]+)"', script.read_text()))
+        taken &= made
+        self.assertGreater(len(taken), 10)
+        self.assertEqual(taken - of_indet, set())
+
     def test_nothing_of_this_machine_is_in_the_package(self):
         for path in self.prefix.rglob("*.cmake"):
             self.assertNotIn(str(pathlib.Path(BUILD).resolve()), path.read_text(), path)

@@ -8,23 +8,15 @@
 #include <limits>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/equilibrium/contact_state.h"
+#include "tests/range/formulations.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Formulation kFormulations[] = {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge};
-
-ForceRanges analyze_by(Formulation formulation, const Packing& packing, int threads = 1) {
-  AnalyzeOptions options;
-  options.formulation = formulation;
-  options.threads = threads;
-  return analyze(packing, options);
-}
 
 double weight(const Eigen::VectorXd& state) {
   double sum = 0;

@@ -9,13 +9,12 @@
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
 #include "libindet/range/analyze.h"
+#include "tests/range/formulations.h"
 #include "tests/support/compare.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
 namespace {
-
-constexpr Formulation kFormulations[] = {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge};
 
 /// Larger than what can be enumerated: redundant ways to one answer.
 std::vector<std::pair<std::string, Packing>> scenes() {
@@ -31,13 +30,6 @@ std::vector<std::pair<std::string, Packing>> scenes() {
   for (std::uint64_t seed = 100; seed < 112; ++seed)
     result.emplace_back("pile " + std::to_string(seed), zoo::random_pile(seed, 12, seed % 3 == 0 ? -1 : 0.5));
   return result;
-}
-
-ForceRanges analyze_by(Formulation formulation, const Packing& packing, int threads = 1) {
-  AnalyzeOptions options;
-  options.formulation = formulation;
-  options.threads = threads;
-  return analyze(packing, options);
 }
 
 std::vector<int> shuffled(int count, Random& random) {

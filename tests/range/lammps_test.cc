@@ -4,6 +4,7 @@
 
 #include "libindet/io/lammps_reader.h"
 #include "libindet/range/analyze.h"
+#include "tests/range/formulations.h"
 #include "tests/support/compare.h"
 
 namespace indet {
@@ -17,13 +18,6 @@ Packing lammps_packing() {
   options.contacts = folder / "contacts.dump";
   options.friction = 0.3;
   return read_lammps(options).packing;
-}
-
-ForceRanges analyze_by(Formulation formulation, const Packing& packing, int threads) {
-  AnalyzeOptions options;
-  options.formulation = formulation;
-  options.threads = threads;
-  return analyze(packing, options);
 }
 
 // One test, so that each formulation is run no more often than needed.

@@ -11,12 +11,11 @@
 #include "libindet/range/analyze.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
+#include "tests/support/same_cases.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
 namespace {
-
-[[maybe_unused]] const int kSeeded = setenv("RC_PARAMS", "seed=2026", 0);
 
 ForceRanges analyze_by(Method method, const Packing& packing, int threads = 1) {
   AnalyzeOptions options;
@@ -46,7 +45,7 @@ void expect_right_or_marked(const ForceRanges& right, const ForceRanges& ranges)
   EXPECT_LE(ranges.failed + ranges.imprecise, ranges.paper.failures());
 }
 
-std::vector<Packing> scenes() {
+std::vector<Packing> simple_scenes() {
   return {zoo::wedge(0.5, 0.3),
           zoo::wedge(1.4, 0.3),
           zoo::wedge(0, 0.3),
@@ -68,7 +67,7 @@ std::vector<Packing> scenes() {
 
 TEST(Methods, TheTableauGivesTheSameResultsInTheZoo) {
   int number = 0;
-  for (const Packing& packing : scenes()) {
+  for (const Packing& packing : simple_scenes()) {
     SCOPED_TRACE(number++);
     const ForceRanges lp = analyze_by(Method::kLp, packing);
     EXPECT_TRUE(test::same_ranges_and_weights(lp, analyze_by(Method::kPivotingTableau, packing), 1e-8));
@@ -77,7 +76,7 @@ TEST(Methods, TheTableauGivesTheSameResultsInTheZoo) {
 
 TEST(Methods, ThePaperIsRightOrSaysSoInTheZoo) {
   int number = 0;
-  for (const Packing& packing : scenes()) {
+  for (const Packing& packing : simple_scenes()) {
     SCOPED_TRACE(number++);
     expect_right_or_marked(analyze_by(Method::kLp, packing), analyze_by(Method::kPivotingPaper, packing));
   }
@@ -110,7 +109,7 @@ TEST(Methods, ThePaperIsRightOrSaysSoInPiles) {
 TEST(Methods, TellTheStatesOfASearchWithoutCanonicalOnes) {
   int number = 0;
   int others = 0;
-  std::vector<Packing> packings = scenes();
+  std::vector<Packing> packings = simple_scenes();
   for (const std::uint64_t seed : {1, 2, 3}) packings.push_back(zoo::random_pile(seed, 14, 0.5));
   for (const Packing& packing : packings) {
     for (const Method method : {Method::kLp, Method::kPivotingTableau, Method::kPivotingPaper}) {
@@ -131,7 +130,9 @@ TEST(Methods, TellTheStatesOfASearchWithoutCanonicalOnes) {
       EXPECT_TRUE(test::same_entries(distances.d_R, landed.d_R, 0));
       EXPECT_TRUE(test::same_entries(distances.d_T, landed.d_T, 0));
       others += both.states.rows() == landed.states.rows() ? 0 : 1;
-      EXPECT_TRUE(test::same_bytes(analyze_by(method, packing), both))
+      ForceRanges canonical = both;
+      canonical.solver_states.reset();
+      EXPECT_TRUE(test::same_bytes(analyze_by(method, packing), canonical))
           << "the canonical states stay the same";
     }
   }

@@ -7,13 +7,11 @@
 #include "libindet/range/analyze.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
+#include "tests/support/same_cases.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
 namespace {
-
-/// The same cases in every run, unless the environment asks for others.
-[[maybe_unused]] const int kSeeded = setenv("RC_PARAMS", "seed=2026", 0);
 
 struct Scene {
   Packing packing;

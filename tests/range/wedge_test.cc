@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "libindet/base/constants.h"
 #include "libindet/range/analyze.h"
 #include "tests/support/compare.h"
 #include "tests/support/zoo.h"
@@ -48,7 +48,6 @@ TEST_P(Wedge, IndeterminacyFollowsTheClosedForms) {
 }
 
 TEST_P(Wedge, BeyondTheCriticalAngleTheForceIsUnlimited) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double s = critical_angle();
   for (int i = 1; i <= kAngles; ++i) {
     const double phi = s + (M_PI / 2 - s) * i / (kAngles + 1);

@@ -12,7 +12,7 @@
 namespace indet {
 namespace {
 
-UniformSample draw(const ConvexBody& body, std::uint64_t seed) {
+UniformSample draw_with_seed(const ConvexBody& body, std::uint64_t seed) {
   UniformOptions options;
   options.seed = seed;
   return sample_uniformly(body, options);
@@ -28,13 +28,14 @@ ConvexBody cube(int contacts) { return make_body(test::box(Eigen::VectorXd::Ones
 
 TEST(Bias, OfAnotherUniformSampleIsNone) {
   const ConvexBody body = cube(6);
-  const UniformSample sample = draw(body, 0);
+  const UniformSample sample = draw_with_seed(body, 0);
   int means = 0;
   int tested = 0;
   double shift = 0;
   double noise = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const SamplingBias bias = compare_with_uniform(body, sample, states_of(body, draw(body, seed)), nullptr);
+    const SamplingBias bias =
+        compare_with_uniform(body, sample, states_of(body, draw_with_seed(body, seed)), nullptr);
     EXPECT_NEAR(bias.r, sample.r.value(), 5 * std::hypot(bias.r_error, sample.r_error.value()));
     EXPECT_NEAR(bias.ratio, 1, 5 * bias.ratio_error);
     shift += bias.center_shift * bias.center_shift / 20;
@@ -54,7 +55,7 @@ TEST(Bias, OfAnotherUniformSampleIsNone) {
 TEST(Bias, OfAChainInTheUpperHalfOfOneCoordinate) {
   const int contacts = 4;
   const ConvexBody body = cube(contacts);
-  const UniformSample sample = draw(body, 0);
+  const UniformSample sample = draw_with_seed(body, 0);
   Random random(7, 0);
   Eigen::MatrixXd chain(2 * contacts, 600);
   for (double& x : chain.reshaped()) x = random.uniform();
@@ -79,7 +80,7 @@ TEST(Bias, OfAChainInTheUpperHalfOfOneCoordinate) {
 /// A chain that hardly moves is not worth a test, and says so by its effective size.
 TEST(Bias, OfAChainThatCreepsIsNotTested) {
   const ConvexBody body = cube(2);
-  const UniformSample sample = draw(body, 0);
+  const UniformSample sample = draw_with_seed(body, 0);
   Eigen::MatrixXd chain(4, 100);
   for (int i = 0; i < 100; ++i) chain.col(i).setConstant(0.3 + 0.004 * i);
   const SamplingBias bias = compare_with_uniform(body, sample, WeightStates(chain), nullptr);
@@ -93,8 +94,9 @@ TEST(Bias, HistogramsOfAWedgeAreFlat) {
   const Packing packing = zoo::wedge(0.5, 0.3);
   const ForceRanges ranges = analyze(packing);
   const ConvexBody body = make_body(find_force_polytope(packing));
-  const UniformSample sample = draw(body, 0);
-  const SamplingBias bias = compare_with_uniform(body, sample, states_of(body, draw(body, 1)), &ranges);
+  const UniformSample sample = draw_with_seed(body, 0);
+  const SamplingBias bias =
+      compare_with_uniform(body, sample, states_of(body, draw_with_seed(body, 1)), &ranges);
   for (const SampledForces* forces : {&bias.uniform, &bias.chain}) {
     const auto total = [](const BinnedValues& v) {
       return std::accumulate(v.counts.begin(), v.counts.end(), 0);

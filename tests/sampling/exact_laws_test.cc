@@ -15,7 +15,7 @@ using test::box;
 using test::cut_cone;
 using test::simplex;
 
-UniformSample draw(const ConvexBody& body, std::uint64_t seed = 0, double effective = 400) {
+UniformSample draw_effective(const ConvexBody& body, std::uint64_t seed = 0, double effective = 400) {
   UniformOptions options;
   options.seed = seed;
   options.effective = effective;
@@ -48,7 +48,7 @@ void expect_mean(const UniformSample& sample, double expected,
 TEST(Box, HasTheMomentsOfIndependentUniformNumbersThoughItsSidesDifferByAMillion) {
   Eigen::VectorXd widths(6);
   widths << 1, 1e-3, 1e3, 2, 1e-2, 7;
-  const UniformSample sample = draw(make_body(box(widths)));
+  const UniformSample sample = draw_effective(make_body(box(widths)));
   for (Eigen::Index i = 0; i < widths.size(); ++i) {
     expect_mean(sample, 0.5, [&](const auto& z) { return z[i] / widths[i]; });
     expect_mean(sample, 1.0 / 3, [&](const auto& z) { return std::pow(z[i] / widths[i], 2); });
@@ -59,7 +59,7 @@ TEST(Box, HasTheMomentsOfIndependentUniformNumbersThoughItsSidesDifferByAMillion
 
 TEST(Simplex, HasTheMomentsOfTheDirichletDistribution) {
   for (const int n : {2, 10, 30}) {
-    const UniformSample sample = draw(make_body(simplex(n)));
+    const UniformSample sample = draw_effective(make_body(simplex(n)));
     for (int i = 0; i < n; i += std::max(1, n / 5)) {
       expect_mean(sample, 1.0 / (n + 1), [&](const auto& z) { return z[i]; });
       expect_mean(sample, 2.0 / ((n + 1) * (n + 2)), [&](const auto& z) { return z[i] * z[i]; });
@@ -74,7 +74,7 @@ TEST(CutCone, HasItsMomentsAlsoWhenItIsSheared) {
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
   for (int i = 1; i < n; ++i) inverse(i, i - 1) = 30;
   for (const Eigen::MatrixXd& map : {Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)), inverse}) {
-    const UniformSample sample = draw(make_body(test::mapped(cut_cone(n), map)));
+    const UniformSample sample = draw_effective(make_body(test::mapped(cut_cone(n), map)));
     expect_mean(sample, n / (n + 1.0), [&](const auto& z) { return map.row(0).dot(z); });
     expect_mean(sample, n / (n + 2.0), [&](const auto& z) { return std::pow(map.row(0).dot(z), 2); });
     // ⟨z_1²⟩ = ⟨z_0²⟩/3.
@@ -112,7 +112,7 @@ void expect_uniform_p_values(const FeasibleSet& set, int component,
                              const std::function<double(double)>& distribution) {
   std::vector<double> p_values;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const UniformSample sample = draw(make_body(set), seed, 1000);
+    const UniformSample sample = draw_effective(make_body(set), seed, 1000);
     const auto between =
         static_cast<Eigen::Index>(std::ceil(4.0 * sample.count() / std::min(sample.bulk, sample.tail)));
     std::vector<double> values;

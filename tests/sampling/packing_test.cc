@@ -12,7 +12,7 @@
 namespace indet {
 namespace {
 
-UniformSample draw(const ConvexBody& body, int threads = 1, std::uint64_t seed = 0) {
+UniformSample draw_on_threads(const ConvexBody& body, int threads = 1, std::uint64_t seed = 0) {
   UniformOptions options;
   options.threads = threads;
   options.seed = seed;
@@ -25,7 +25,7 @@ TEST(Wedge, IsAUniformSegment) {
   const zoo::WedgeRanges exact = zoo::wedge_ranges(phi, mu);
   const ConvexBody body = make_body(find_force_polytope(zoo::wedge(phi, mu)));
   ASSERT_EQ(body.dim(), 1);
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_on_threads(body);
   ASSERT_TRUE(sample.converged);
   const double error = 4 / std::sqrt(12 * sample.bulk);
   EXPECT_NEAR((sample.center.value()[0] - exact.R_min) / exact.delta_R, 0.5, error);
@@ -42,7 +42,7 @@ TEST(Wedge, IsAUniformSegment) {
 /// Of the segment, every R and T is linear in one uniform number: all correlations are ±1.
 TEST(Wedge, HasTheCovarianceOfASegment) {
   const ConvexBody body = make_body(find_force_polytope(zoo::wedge(0.5, 0.3)));
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_on_threads(body);
   const Eigen::MatrixXd covariance = body.frame * sample.covariance * body.frame.transpose();
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR(std::sqrt(covariance(i, i)), sample.deviation.value()[i], 1e-12);
@@ -56,7 +56,7 @@ TEST(Wedge, HasTheCovarianceOfASegment) {
 TEST(TwoWedges, AreIndependent) {
   const ConvexBody body = make_body(find_force_polytope(zoo::two_wedges(0.4, 0.3, 0.7, 0.2)));
   ASSERT_EQ(body.blocks.size(), 2U);
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_on_threads(body);
   const Eigen::VectorXd left = component_of(body, sample, 0).value();
   const Eigen::VectorXd right = component_of(body, sample, 4).value();
   const double correlation = ((left.array() - left.mean()) * (right.array() - right.mean())).mean() /
@@ -75,7 +75,7 @@ TEST(Frame, IsIsometricAndKeepsBalance) {
     EXPECT_EQ(body.dim(), polytope.dim);
     const Eigen::MatrixXd gram = body.frame.transpose() * body.frame;
     EXPECT_LT((gram - Eigen::MatrixXd::Identity(body.dim(), body.dim())).norm(), 1e-12);
-    const UniformSample sample = draw(body);
+    const UniformSample sample = draw_on_threads(body);
     EXPECT_TRUE(sample.converged);
     for (Eigen::Index i = 0; i < sample.z.cols(); i += 97) {
       const SceneForces F = body.units.scene(InternalForces(body.states(sample.z.col(i)).value()));
@@ -91,12 +91,12 @@ TEST(Samples, DoNotDependOnTheUnitOfForceThatTheSceneNames) {
   Packing packing = zoo::column(6, 0.3, 0.4);
   const ForceRanges ranges = analyze(packing);
   const double mg = packing.force_unit();
-  const UniformSample expected = draw(make_body(find_force_polytope(packing)));
+  const UniformSample expected = draw_on_threads(make_body(find_force_polytope(packing)));
   for (const double named : {1e-6, 1e-3, 1.0, 30000.0, 1e6}) {
     SCOPED_TRACE(named);
     packing.named_force_unit = named * mg;
     const ConvexBody body = make_body(find_force_polytope(packing));
-    const UniformSample sample = draw(body);
+    const UniformSample sample = draw_on_threads(body);
     const Eigen::VectorXd center = body.units.scene(sample.center).value();
     for (Eigen::Index k = 0; k < center.size(); ++k) {
       const int column = k % 2 == 0 ? kMinR : kMinT;
@@ -119,7 +119,7 @@ TEST(Samples, LieInsideTheRangesThatLinearProgramsFind) {
     if (polytope.status != PolytopeStatus::kBounded) continue;
     const ForceRanges ranges = analyze(packing);
     const ConvexBody body = make_body(polytope);
-    const UniformSample sample = draw(body, 1, seed);
+    const UniformSample sample = draw_on_threads(body, 1, seed);
     EXPECT_TRUE(sample.converged) << seed;
     for (int k = 0; k < body.frame.rows(); ++k) {
       const Eigen::VectorXd values = body.units.scene(component_of(body, sample, k)).value();
@@ -132,11 +132,11 @@ TEST(Samples, LieInsideTheRangesThatLinearProgramsFind) {
 
 TEST(Samples, DoNotDependOnTheNumberOfThreads) {
   const ConvexBody body = make_body(find_force_polytope(zoo::column(10, 0.3, 0.4)));
-  const UniformSample one = draw(body, 1);
-  const UniformSample three = draw(body, 3);
+  const UniformSample one = draw_on_threads(body, 1);
+  const UniformSample three = draw_on_threads(body, 3);
   EXPECT_EQ(one.z, three.z);
   EXPECT_EQ(one.rhat, three.rhat);
-  EXPECT_NE(one.center.value(), draw(body, 1, 7).center.value());
+  EXPECT_NE(one.center.value(), draw_on_threads(body, 1, 7).center.value());
 }
 
 TEST(Limit, IsReportedAsNotConverged) {

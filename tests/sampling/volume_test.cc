@@ -17,7 +17,7 @@ namespace {
 using test::box;
 using test::simplex;
 
-UniformSample draw(const ConvexBody& body, double effective = 400) {
+UniformSample draw_for_volume(const ConvexBody& body, double effective = 400) {
   UniformOptions options;
   options.effective = effective;
   return sample_uniformly(body, options);
@@ -28,7 +28,7 @@ VolumeEstimate volume_of(const FeasibleSet& set, int sweeps, int threads = 1) {
   VolumeOptions options;
   options.sweeps = sweeps;
   options.threads = threads;
-  return estimate_volume(body, draw(body), options);
+  return estimate_volume(body, draw_for_volume(body), options);
 }
 
 void expect_volume(const FeasibleSet& set, double log_volume, int sweeps, double largest_error) {
@@ -74,7 +74,7 @@ TEST(Volume, DoesNotDependOnTheNumberOfThreads) {
 /// The stated error is that of the estimate: over seeds, (estimate − exact)/error has a variance of about 1.
 TEST(Volume, HasTheErrorThatItStates) {
   const ConvexBody body = make_body(simplex(4));
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_for_volume(body);
   double squares = 0;
   constexpr int kSeeds = 40;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -96,7 +96,7 @@ TEST(Shape, OfAWedgeIsThatOfASegment) {
   const double length = std::sqrt(2 * (exact.delta_R * exact.delta_R + exact.delta_T * exact.delta_T));
   const ConvexBody body = make_body(find_force_polytope(packing));
   const ForceRanges ranges = analyze(packing);
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_for_volume(body);
   const PolytopeShape shape = measure_shape(body, sample, &ranges);
   EXPECT_NEAR(shape.diameter_lower, length, 1e-9);
   EXPECT_NEAR(shape.diameter_upper, length, 1e-9);
@@ -113,7 +113,7 @@ TEST(Shape, OfACube) {
   const ConvexBody body = make_body(box(Eigen::VectorXd::Ones(n)));
   ShapeOptions options;
   options.directions = 200;
-  const PolytopeShape shape = measure_shape(body, draw(body), nullptr, options);
+  const PolytopeShape shape = measure_shape(body, draw_for_volume(body), nullptr, options);
   EXPECT_NEAR(shape.inscribed_radius, 0.5, 1e-9);
   EXPECT_LE(shape.diameter_lower, std::sqrt(n) + 1e-9);
   EXPECT_GT(shape.diameter_lower, 0.8 * std::sqrt(n));
@@ -127,7 +127,7 @@ TEST(Shape, OfACube) {
 TEST(Shape, OfAPackingIsBoundedFromBothSides) {
   const Packing packing = zoo::column(8, 0.3, 0.4);
   const ConvexBody body = make_body(find_force_polytope(packing));
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_for_volume(body);
   const ForceRanges ranges = analyze(packing);
   const PolytopeShape shape = measure_shape(body, sample, &ranges);
   EXPECT_LE(shape.diameter_lower, shape.diameter_upper);
@@ -141,7 +141,7 @@ TEST(Shape, OfAPackingIsBoundedFromBothSides) {
 /// them.
 TEST(Shape, WithoutTheSolutionsOfLinearProgramsHasNoMeanWidth) {
   const ConvexBody body = make_body(find_force_polytope(zoo::column(8, 0.3, 0.4)));
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_for_volume(body);
   const PolytopeShape whole = measure_shape(body, sample, nullptr);
   EXPECT_EQ(whole.unsolved, 0);
   ShapeOptions options;
@@ -157,7 +157,7 @@ TEST(Shape, WithoutTheSolutionsOfLinearProgramsHasNoMeanWidth) {
 TEST(Placement, OfASampleIsSomewhereInTheMiddleAndOfAnExtremalStateAtTheEnd) {
   const Packing packing = zoo::column(8, 0.3, 0.4);
   const ConvexBody body = make_body(find_force_polytope(packing));
-  const UniformSample sample = draw(body);
+  const UniformSample sample = draw_for_volume(body);
   const ForceRanges ranges = analyze(packing);
 
   // Over many samples the percentiles of a sample are uniform: their mean is 50 ± 29/√n.

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/random.h"
 #include "libindet/statistics/convergence.h"
 
 namespace indet {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A stationary chain of normal values of variance 1 and correlations ρ^lag.
 std::vector<double> autoregressive(int length, double rho, std::uint64_t seed) {

@@ -11,6 +11,7 @@
 #include "libindet/statistics/convergence.h"
 #include "libindet/verify/chain_diagnostics.h"
 #include "tests/support/zoo.h"
+#include "tests/verify/first_message.h"
 
 namespace indet {
 namespace {
@@ -30,10 +31,6 @@ SamplingRecord sampled(const Packing& packing) {
   record.components->states = body.units.scene(some_states(body, sample, sample.count())).value();
   record.components->covariance = unit * unit * body.frame * sample.covariance * body.frame.transpose();
   return record;
-}
-
-std::string first_message(const Verification& found) {
-  return found.messages.empty() ? "" : found.messages.front();
 }
 
 class SamplesCheck : public testing::Test {

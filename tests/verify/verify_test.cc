@@ -6,16 +6,13 @@
 #include "libindet/range/analyze.h"
 #include "libindet/verify/affine_hull.h"
 #include "tests/support/zoo.h"
+#include "tests/verify/first_message.h"
 
 namespace indet {
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-
-std::string first_message(const Verification& found) {
-  return found.messages.empty() ? "" : found.messages.front();
-}
 
 void expect_contradiction(const Packing& packing, const ForceRanges& wrong, const std::string& text) {
   const Verification found = verify_ranges(packing, wrong);

@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "apps/ensemble/members/write_vector.h"
 #include "libindet/base/error.h"
 #include "libindet/io/ranges_file.h"
 
 namespace indet {
 namespace {
-
-void write_vector(Hdf5File& file, const std::string& path, const Eigen::VectorXd& values,
-                  const Label& label) {
-  const auto size = static_cast<std::size_t>(values.size());
-  file.write(path, std::span<const double>(values.data(), size), {size}, label);
-}
 
 void write_counts(Hdf5File& file, const std::string& path, const ExtremalForces& forces, const char* which) {
   std::size_t bins = 0;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "apps/bridge/uniform_record.h"
+#include "apps/ensemble/members/write_vector.h"
 #include "libindet/sampling/placement.h"
 
 namespace indet {
@@ -19,12 +20,6 @@ std::string outcome_without_sample(PolytopeStatus status) {
     default:
       return "empty";
   }
-}
-
-void write_vector(Hdf5File& file, const std::string& path, const Eigen::VectorXd& values,
-                  const Label& label) {
-  const auto size = static_cast<std::size_t>(values.size());
-  file.write(path, std::span<const double>(values.data(), size), {size}, label);
 }
 
 void write_probabilities(Hdf5File& file, const std::string& path, const std::vector<TwoSampleTest>& tests,

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "libindet/base/constants.h"
 
 namespace indet {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Series curve(const std::string& name, const GroupedValues& data, double low, double width, double high,
              Mark mark, int colour, bool thick, bool logarithmic) {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "apps/ensemble/presentation/curves.h"
 #include "apps/ensemble/presentation/samples.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
+#include "libindet/base/constants.h"
 #include "libindet/range/analyze.h"
 #include "libindet/statistics/distribution.h"
 
@@ -22,7 +22,6 @@ namespace {
 
 using sim::Protocol;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kCanonical =
     "where many states attain an optimum, the one of smallest total normal force";
 constexpr const char* kSolver =

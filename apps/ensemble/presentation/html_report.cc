@@ -82,13 +82,13 @@ std::string table_of(const std::vector<Comparison>& rows, bool with_paper) {
   return text + "</table>\n";
 }
 
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
 
 std::string csv_of(const std::vector<Comparison>& rows) {
   std::string text = "quantity,paper,here,verdict\n";
   for (const Comparison& row : rows)
-    text +=
-        fmt::format("{},{},{},{}\n", quoted(row.quantity), quoted(row.paper), quoted(row.ours), row.verdict);
+    text += fmt::format("{},{},{},{}\n", in_quotes(row.quantity), in_quotes(row.paper), in_quotes(row.ours),
+                        row.verdict);
   return text;
 }
 
@@ -158,7 +158,7 @@ std::string table_of(const std::vector<std::vector<std::string>>& rows) {
 std::string csv_of(const std::vector<std::vector<std::string>>& rows) {
   std::string text;
   for (const auto& row : rows) {
-    for (const std::string& value : row) text += (&value == row.data() ? "" : ",") + quoted(value);
+    for (const std::string& value : row) text += (&value == row.data() ? "" : ",") + in_quotes(value);
     text += '\n';
   }
   return text;

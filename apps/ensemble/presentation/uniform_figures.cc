@@ -119,7 +119,7 @@ Figure forces(const Samples& samples) {
       .panels = panels};
 }
 
-Figure places(const Samples& samples) {
+Figure uniform_places(const Samples& samples) {
   Figure figure{
       .id = "uniform-places",
       .title = "Places in the ranges: simulated, uniform, perturb-and-resolve",
@@ -268,7 +268,7 @@ std::vector<Figure> uniform_figures(const EnsembleTables& tables) {
   if (families_with(samples, "uniform_r").empty()) return {};
   std::vector<Figure> figures;
   if (!families_with(samples, "bias_ratio").empty()) {
-    figures = {radii(tables, samples), forces(samples), places(samples), tests(samples)};
+    figures = {radii(tables, samples), forces(samples), uniform_places(samples), tests(samples)};
   }
   if (!families_with(samples, "uniform_norm_percentile").empty()) {
     figures.push_back(states(samples, "uniform-states", "Simulated states among uniform ones: norm and R*",

@@ -13,7 +13,7 @@ namespace indet {
 namespace {
 
 using sim::Protocol;
-using Rows = std::vector<std::vector<std::string>>;
+using SummaryRows = std::vector<std::vector<std::string>>;
 using Cell = std::function<std::string(Protocol protocol)>;
 
 class Summary {
@@ -28,7 +28,7 @@ class Summary {
     }
   }
 
-  Rows rows() {
+  SummaryRows rows() {
     if (shown_.empty()) return {};
     std::vector<std::string> header = {""};
     for (const std::size_t p : shown_) header.emplace_back(kFamilies[p].name());
@@ -159,11 +159,11 @@ class Summary {
   Samples samples_;
   Protocols sampled_;               ///< Protocols of the packings with a uniform sample.
   std::vector<std::size_t> shown_;  ///< Families that have some.
-  Rows rows_;
+  SummaryRows rows_;
 };
 
 }  // namespace
 
-Rows uniform_summary(const EnsembleTables& tables) { return Summary(tables).rows(); }
+SummaryRows uniform_summary(const EnsembleTables& tables) { return Summary(tables).rows(); }
 
 }  // namespace indet

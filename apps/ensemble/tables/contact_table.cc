@@ -11,8 +11,6 @@
 namespace indet {
 namespace {
 
-using Column = FlatTable::Column;
-
 constexpr std::array<const char*, 4> kObjectives = {"R_min", "R_max", "T_min", "T_max"};
 
 void add_extremal(const Hdf5File& file, const std::string& dataset, int choice, std::size_t run,
@@ -37,8 +35,8 @@ void add_extremal(const Hdf5File& file, const std::string& dataset, int choice, 
 
 }  // namespace
 
-std::vector<Column> contact_columns() {
-  std::vector<Column> columns = {
+std::vector<FlatTable::Column> contact_columns() {
+  std::vector<FlatTable::Column> columns = {
       FlatTable::integer("run", "row of the packing in /table/runs"),
       FlatTable::integer("contact", "number of the contact in its packing"),
       FlatTable::integer("body_a", "row of disk a"),
@@ -64,11 +62,11 @@ std::vector<Column> contact_columns() {
   columns.push_back(FlatTable::real("T_star", "1", "place of T in its range"));
   for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
     columns.push_back(FlatTable::integer(name, "1 if only one state attains the value"));
-  for (Column& column : uniform_contact_columns()) columns.push_back(std::move(column));
+  for (FlatTable::Column& column : uniform_contact_columns()) columns.push_back(std::move(column));
   return columns;
 }
 
-std::vector<Column> extremal_columns() {
+std::vector<FlatTable::Column> extremal_columns() {
   return {FlatTable::integer("run", "row of the packing in /table/runs"),
           FlatTable::integer("choice", "0: canonical states, 1: states that the solver happens to find"),
           FlatTable::integer("objective", "states of 0: R_min, 1: R_max, 2: T_min, 3: T_max"),

@@ -10,8 +10,6 @@
 namespace indet {
 namespace {
 
-using Column = FlatTable::Column;
-
 /// Attributes of /equilibrium that become columns of the same name.
 const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
     {"rank", "rank of the contact matrix"},
@@ -55,8 +53,8 @@ constexpr std::array<AttributeColumn, 4> kTimings = {{
 
 }  // namespace
 
-std::vector<Column> run_columns() {
-  std::vector<Column> columns = {
+std::vector<FlatTable::Column> run_columns() {
+  std::vector<FlatTable::Column> columns = {
       FlatTable::text("member", "name of the packing"),
       FlatTable::text("protocol", "how it was made"),
       FlatTable::integer("seed", "seed, -1 if there is none"),
@@ -77,12 +75,12 @@ std::vector<Column> run_columns() {
   columns.push_back(FlatTable::real("distance_cd1", "mg", "distance to the cd1 state of the same seed"));
   columns.push_back(FlatTable::real("distance_cd2", "mg", "distance to the cd2 state of the same seed"));
   append_columns(kAttributes, columns);
-  for (Column& column : uniform_run_columns()) columns.push_back(std::move(column));
+  for (FlatTable::Column& column : uniform_run_columns()) columns.push_back(std::move(column));
   return columns;
 }
 
-std::vector<Column> timing_columns() {
-  std::vector<Column> columns;
+std::vector<FlatTable::Column> timing_columns() {
+  std::vector<FlatTable::Column> columns;
   append_columns(kTimings, columns);
   return columns;
 }

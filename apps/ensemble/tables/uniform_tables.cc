@@ -6,10 +6,8 @@
 namespace indet {
 namespace {
 
-using Column = FlatTable::Column;
-
 /// Attributes of /uniform and /bias.
-constexpr std::array<AttributeColumn, 26> kAttributes = {{
+constexpr std::array<AttributeColumn, 26> kUniformAttributes = {{
     {"uniform_r", "/uniform", "r", "mg", "radius of the uniform distribution [38]"},
     {"uniform_r_error", "/uniform", "r_error", "mg", "its standard error"},
     {"uniform_spread", "/uniform", "spread", "mg", "standard deviation of the distance from its centre"},
@@ -94,15 +92,15 @@ void add_bins(const Hdf5File& file, const std::string& group, const char* quanti
 
 }  // namespace
 
-std::vector<Column> uniform_run_columns() {
-  std::vector<Column> columns = {FlatTable::text(
+std::vector<FlatTable::Column> uniform_run_columns() {
+  std::vector<FlatTable::Column> columns = {FlatTable::text(
       "uniform", "uniform sampling: converged, limit; unbounded, point, empty; nothing if not asked for")};
-  append_columns(kAttributes, columns);
+  append_columns(kUniformAttributes, columns);
   return columns;
 }
 
-std::vector<Column> uniform_contact_columns() {
-  std::vector<Column> columns = {
+std::vector<FlatTable::Column> uniform_contact_columns() {
+  std::vector<FlatTable::Column> columns = {
       FlatTable::real("uniform_R", "mg", "mean R of the uniform distribution"),
       FlatTable::real("uniform_R_deviation", "mg", "its standard deviation over the states")};
   for (const TakenContacts& t : kTakenContacts)
@@ -110,7 +108,7 @@ std::vector<Column> uniform_contact_columns() {
   return columns;
 }
 
-std::vector<Column> sampled_columns() {
+std::vector<FlatTable::Column> sampled_columns() {
   return {FlatTable::integer("run", "row of the packing in /table/runs"),
           FlatTable::integer("sampling", "0: uniform, 1: perturb-and-resolve"),
           FlatTable::text("quantity",
@@ -124,7 +122,7 @@ void add_uniform_sampling(const Hdf5File& file, EnsembleTables& tables, std::siz
                           std::size_t first_contact) {
   if (!file.has("/uniform")) return;
   tables.runs.set("uniform", run, file.string_attribute("/uniform", "outcome"));
-  take_attributes(file, kAttributes, run, tables.runs);
+  take_attributes(file, kUniformAttributes, run, tables.runs);
   FlatTable& contacts = tables.contacts;
   const double mg = tables.runs.number("mg", run);
   if (file.has("/uniform/center")) {

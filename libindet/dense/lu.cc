@@ -1,0 +1,3 @@
+#include "libindet/dense/lu.h"
+
+template class Eigen::PartialPivLU<Eigen::MatrixXd>;
