@@ -39,7 +39,7 @@ struct Disagreement {
 };
 
 /// How one method's results stand to those of the first.
-struct Comparison {
+struct MethodComparison {
   double worst_difference = 0;  ///< mg, of values that both call certified
   double worst_imprecise = 0;   ///< mg, of values that some method calls imprecise
   std::int64_t compared = 0;    ///< values that both call certified
@@ -50,7 +50,7 @@ struct Comparison {
 bool is_certified(Outcome outcome) { return outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded; }
 
 void compare_states(const ForceRanges& expected, const ForceRanges& found, Eigen::Index i, int column,
-                    Comparison& comparison) {
+                    MethodComparison& comparison) {
   const int first = expected.vertex(i, column);
   const int second = found.vertex(i, column);
   if (first < 0 || second < 0) return;
@@ -60,8 +60,8 @@ void compare_states(const ForceRanges& expected, const ForceRanges& found, Eigen
   if (distance <= kSameState * scale) ++comparison.same_states;
 }
 
-Comparison compare(const ForceRanges& expected, const ForceRanges& found, double tolerance) {
-  Comparison comparison;
+MethodComparison compare(const ForceRanges& expected, const ForceRanges& found, double tolerance) {
+  MethodComparison comparison;
   for (Eigen::Index i = 0; i < expected.value.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
       const double a = expected.value(i, column) / expected.force_unit;
@@ -89,12 +89,12 @@ double stage_seconds(const ForceRanges& ranges, const std::string& stage) {
 
 struct Entry {
   ForceRanges ranges;
-  Comparison comparison;  ///< with the first entry
+  MethodComparison comparison;  ///< with the first entry
 };
 
 nlohmann::json to_json(const Entry& entry) {
   const ForceRanges& r = entry.ranges;
-  const Comparison& c = entry.comparison;
+  const MethodComparison& c = entry.comparison;
   nlohmann::json json = {
       {"method", to_string(r.method)},
       {"formulation", r.formulation},
