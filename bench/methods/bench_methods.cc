@@ -62,12 +62,12 @@ Tally our_search(const Job& job, SearchOptions options, bool auto_formulation = 
       weight[static_cast<Eigen::Index>(k)] =
           job.polytope.problem.edges[static_cast<std::size_t>(block.edges[k])].R;
     }
-    if (auto_formulation) options.formulation = choose_formulation(block.set.dim());
+    if (auto_formulation) options.formulation = choose_formulation(block.view.dim());
     const Basis start =
         options.method == Method::kPivotingPaper
             ? first_extremal_point(job.packing.simulated_forces(), job.polytope, block, job.lp, paper)
             : block.lightest;
-    const SearchResult found = search_extrema(block.set, components, weight, start, options);
+    const SearchResult found = search_extrema(block.view, components, weight, start, options);
     tally.solves += found.solves;
     tally.pivots += found.pivots;
     tally.failures += found.paper.failures();

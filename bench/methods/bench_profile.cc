@@ -45,9 +45,9 @@ double product_rate() {
 }
 
 /// Seconds a pivot of the tableau, over solves of all objectives from one vertex.
-double tableau_pivot_seconds(const FeasibleSet& set, const std::vector<Objective>& objectives,
+double tableau_pivot_seconds(const SlopeView& view, const std::vector<Objective>& objectives,
                              const Basis& start) {
-  TableauSolver solver(set);
+  TableauSolver solver(view);
   std::int64_t pivots = 0;
   const double begin = now();
   for (const Objective& objective : objectives) pivots += solver.maximise(objective, start).pivots;
@@ -68,7 +68,7 @@ double continued_fraction(const ForcePolytope& polytope, Formulation formulation
   SearchOptions options;
   options.formulation = formulation;
   options.canonical_states = canonical_states;
-  const SearchResult found = search_extrema(block.set, components, weight, block.lightest, options);
+  const SearchResult found = search_extrema(block.view, components, weight, block.lightest, options);
   return static_cast<double>(found.continued) / static_cast<double>(std::max<std::int64_t>(1, found.solves));
 }
 
@@ -77,9 +77,9 @@ nlohmann::json measure(const std::string& file) {
   const Packing packing = read_packing(file);
   const ForcePolytope polytope = find_force_polytope(packing);
   const PolytopeBlock& block = polytope.blocks.at(0);
-  const Formulation formulation = choose_formulation(block.set.dim());
+  const Formulation formulation = choose_formulation(block.view.dim());
   std::vector<Objective> objectives = natural_objectives(polytope, block);
-  LpSolver solver(block.set, formulation);
+  LpSolver solver(block.view, formulation);
   std::vector<Basis> optima;
   for (const Objective& objective : objectives)
     optima.push_back(solver.maximise(objective, optima.empty() ? block.lightest : optima.back()).basis);
@@ -92,9 +92,9 @@ nlohmann::json measure(const std::string& file) {
   };
   const double resolve = at_optima([&](std::size_t i) { solver.maximise(objectives[i], optima[i]); });
   const double going_on = at_optima([&](std::size_t) { solver.maximise(objectives.back(), optima.back()); });
-  const double vertex = at_optima([&](std::size_t i) { compute_vertex(block.set, optima[i]); });
-  return {{"inequalities", block.set.inequalities()},
-          {"dim", block.set.dim()},
+  const double vertex = at_optima([&](std::size_t i) { compute_vertex(block.view, optima[i]); });
+  return {{"inequalities", block.view.inequalities()},
+          {"dim", block.view.dim()},
           {"formulation", to_string(formulation)},
           {"read_seconds", read_seconds},
           {"start_seconds", resolve},
@@ -103,7 +103,7 @@ nlohmann::json measure(const std::string& file) {
            {{"fast", continued_fraction(polytope, formulation, false)},
             {"standard", continued_fraction(polytope, formulation, true)}}},
           {"vertex_seconds", vertex},
-          {"tableau_pivot_seconds", tableau_pivot_seconds(block.set, objectives, block.lightest)},
+          {"tableau_pivot_seconds", tableau_pivot_seconds(block.view, objectives, block.lightest)},
           {"product_flops_per_second", product_rate()}};
 }
 

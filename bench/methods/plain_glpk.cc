@@ -27,7 +27,7 @@ std::vector<Objective> natural_objectives(const ForcePolytope& polytope, const P
         if (component->empty()) continue;
         auto on_edges = *component;
         for (auto& [index, coefficient] : on_edges) coefficient *= sign;
-        objectives.push_back(make_objective(block.set, on_edges));
+        objectives.push_back(make_objective(block.view, on_edges));
       }
     }
   }
@@ -38,7 +38,7 @@ Tally plain_glpk(const ForcePolytope& polytope, Formulation formulation, Start s
                  const LpOptions& options) {
   Tally tally;
   for (const PolytopeBlock& block : polytope.blocks) {
-    const auto layout = make_layout(block.set, formulation);
+    const auto layout = make_layout(block.view, formulation);
     const auto problem = layout->build();
     layout->set_start(*problem, block.lightest);
     GlpkProblem::Settings settings;
@@ -46,7 +46,7 @@ Tally plain_glpk(const ForcePolytope& polytope, Formulation formulation, Start s
     settings.feasibility = options.feasibility;
     settings.optimality = options.optimality;
     settings.keep_factors = start == Start::kLastOptimum;
-    if (settings.keep_factors) settings.iteration_limit = 20 * block.set.dim() + 200;
+    if (settings.keep_factors) settings.iteration_limit = 20 * block.view.dim() + 200;
     const std::vector<Objective> objectives = natural_objectives(polytope, block);
     std::vector<std::size_t> order(objectives.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -71,7 +71,7 @@ Tally plain_glpk(const ForcePolytope& polytope, Formulation formulation, Start s
       }
       if (layout->interpret(result) != LpStatus::kOptimal) throw std::runtime_error("GLPK: a solve failed");
       ++tally.solves;
-      const Vertex vertex = compute_vertex(block.set, layout->read_basis(*problem));
+      const Vertex vertex = compute_vertex(block.view, layout->read_basis(*problem));
       for (const auto& [index, coefficient] : objective.on_edges) optima[i] += coefficient * vertex.x[index];
       // The edge formulation alone has the objective without a constant term.
       raw[i] = formulation == Formulation::kEdge ? problem->objective_value() : std::nan("");

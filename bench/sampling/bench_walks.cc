@@ -113,7 +113,7 @@ void compare(const std::string& file, double seconds) {
   const Eigen::MatrixXd starts = dispersed_points(body, ball.center, kChains, 0);
 
   fmt::print("{}: dimension {}, {} half-planes, {} s for each walk\n\n", file, body.dim(),
-             body.set.inequalities(), seconds);
+             body.view.inequalities(), seconds);
   fmt::print("| walk | sweeps of n steps a second | R-hat | effective samples | a second | warm-up (s) |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   for (const auto& [rounding, how] :

@@ -95,9 +95,8 @@ void add_column(const RowNumbering& number, const Contact& contact, double R, do
   if (!contact.b.is_wall()) add(contact.b.disk_id(), -1);
 }
 
-/// The edges, and what follows from them and the modes alone: forces, to_edges, edge_forces.
+/// The edges, and what follows from them and the modes alone: to_edges, edge_forces.
 void describe_unknowns(EquilibriumProblem& problem) {
-  Triplets forces;
   Triplets to_edges;
   Triplets edge_forces;
   problem.edges.clear();
@@ -115,33 +114,17 @@ void describe_unknowns(EquilibriumProblem& problem) {
       edge_forces.emplace_back(row, column + k, edge.R);
       if (sign != 0) edge_forces.emplace_back(row + 1, column + k, edge.T);
       if (mode == ContactMode::kStick) {  // unknowns R and T themselves
-        forces.emplace_back(row + k, column + k, 1.0);
         to_edges.emplace_back(column + k, column, 0.5 / kappa);
         to_edges.emplace_back(column + k, column + 1, sign * 0.5 / (kappa * mu));
       } else {
-        forces.emplace_back(row, column, edge.R);
-        if (sign != 0) forces.emplace_back(row + 1, column, edge.T);
         to_edges.emplace_back(column, column, 1.0);
       }
     }
     column += count;
   }
   const int components = 2 * static_cast<int>(problem.modes.size());
-  problem.forces = assemble(components, column, forces);
   problem.to_edges = assemble(column, column, to_edges);
   problem.edge_forces = assemble(components, column, edge_forces);
-}
-
-/// The first unknown of each contact, −1 if it has none.
-std::vector<int> first_unknowns(const EquilibriumProblem& problem) {
-  std::vector<int> first(problem.modes.size(), -1);
-  for (int k = problem.unknowns() - 1; k >= 0; --k)
-    first[static_cast<std::size_t>(problem.edges[static_cast<std::size_t>(k)].contact.value())] = k;
-  return first;
-}
-
-bool is_stick(const EquilibriumProblem& problem, const Edge& edge) {
-  return problem.modes[static_cast<std::size_t>(edge.contact.value())] == ContactMode::kStick;
 }
 
 }  // namespace
@@ -155,13 +138,19 @@ std::vector<ContactMode> natural_modes(const Packing& packing) {
   return modes;
 }
 
+std::vector<int> EquilibriumProblem::first_unknowns() const {
+  std::vector<int> first(modes.size(), -1);
+  for (int k = unknowns() - 1; k >= 0; --k) first[static_cast<std::size_t>(edge(k).contact.value())] = k;
+  return first;
+}
+
 Eigen::VectorXd EquilibriumProblem::unknowns_of(const InternalForces& state) const {
   const Eigen::VectorXd& F = state.value();
   Eigen::VectorXd u(unknowns());
   for (int k = 0; k < unknowns(); ++k) {
-    const Edge& edge = edges[static_cast<std::size_t>(k)];
+    const Edge& edge = this->edge(k);
     const int contact = edge.contact.value();
-    u[k] = is_stick(*this, edge) ? F[2 * contact + (edge.sign < 0 ? 1 : 0)] : F[2 * contact] / edge.R;
+    u[k] = is_stick(edge) ? F[2 * contact + (edge.sign < 0 ? 1 : 0)] : F[2 * contact] / edge.R;
   }
   return u;
 }
@@ -170,10 +159,10 @@ Eigen::VectorXd EquilibriumProblem::strengths_of(const InternalForces& state) co
   const Eigen::VectorXd& F = state.value();
   Eigen::VectorXd x(unknowns());
   for (int k = 0; k < unknowns(); ++k) {
-    const Edge& edge = edges[static_cast<std::size_t>(k)];
+    const Edge& edge = this->edge(k);
     const int contact = edge.contact.value();
     const double R = F[2 * contact] / edge.R;
-    x[k] = is_stick(*this, edge) ? (R + F[2 * contact + 1] / edge.T) / 2 : R;
+    x[k] = is_stick(edge) ? (R + F[2 * contact + 1] / edge.T) / 2 : R;
   }
   return x;
 }
@@ -202,7 +191,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
     const Edge& edge = problem.edges[static_cast<std::size_t>(column)];
     const Contact& contact = packing[edge.contact];
     add_column(number, contact, edge.R, edge.T, column, edge_matrix);
-    if (is_stick(problem, edge)) {
+    if (problem.is_stick(edge)) {
       const bool is_normal = edge.sign > 0;
       add_column(number, contact, is_normal ? 1 : 0, is_normal ? 0 : 1, column, matrix);
     } else {
@@ -236,7 +225,7 @@ EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<c
   describe_unknowns(result);
 
   // The columns that are left: of a contact that sticks both, else that of its edge.
-  const std::vector<int> first = first_unknowns(problem);
+  const std::vector<int> first = problem.first_unknowns();
   Triplets matrix;
   Triplets edge_matrix;
   std::vector<bool> needed(static_cast<std::size_t>(problem.equations()), false);
@@ -249,10 +238,10 @@ EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<c
   for (int column = 0; column < static_cast<int>(result.edges.size()); ++column) {
     const Edge& edge = result.edges[static_cast<std::size_t>(column)];
     const int before = first[static_cast<std::size_t>(edge.contact.value())];
-    const bool was_stick = is_stick(problem, problem.edges[static_cast<std::size_t>(before)]);
+    const bool was_stick = problem.is_stick(problem.edge(before));
     const int old = before + (was_stick && edge.sign < 0 ? 1 : 0);
     copy(problem.edge_matrix, old, column, edge_matrix);
-    copy(is_stick(result, edge) ? problem.matrix : problem.edge_matrix, old, column, matrix);
+    copy(result.is_stick(edge) ? problem.matrix : problem.edge_matrix, old, column, matrix);
   }
 
   std::vector<int> number(static_cast<std::size_t>(problem.equations()), -1);

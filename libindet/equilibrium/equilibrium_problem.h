@@ -69,7 +69,6 @@ struct EquilibriumProblem {
   std::vector<EquilibriumRow> rows;      ///< what each equation is
   std::vector<ContactMode> modes;        ///< M
   std::vector<ContactEnds> contacts;     ///< M
-  Eigen::SparseMatrix<double> forces;    ///< 2M × unknowns: F = forces · u
   std::vector<Edge> edges;               ///< unknowns (there are as many edges as unknowns)
   Eigen::SparseMatrix<double> to_edges;  ///< unknowns × unknowns, block diagonal: x = to_edges · u;
                                          ///< F ∈ K ⇔ x ≥ 0
@@ -80,6 +79,15 @@ struct EquilibriumProblem {
 
   int unknowns() const { return static_cast<int>(matrix.cols()); }
   int equations() const { return static_cast<int>(matrix.rows()); }
+  /// The edge of an unknown.
+  const Edge& edge(int unknown) const { return edges[static_cast<std::size_t>(unknown)]; }
+  double mu(const Edge& edge) const { return contacts[static_cast<std::size_t>(edge.contact.value())].mu; }
+  /// Both edges of its contact are open.
+  bool is_stick(const Edge& edge) const {
+    return modes[static_cast<std::size_t>(edge.contact.value())] == ContactMode::kStick;
+  }
+  /// The first unknown of each contact; −1 if it has none. M.
+  std::vector<int> first_unknowns() const;
   /// b of the load that acts.
   auto load() const { return right_hand_sides.col(0); }
 

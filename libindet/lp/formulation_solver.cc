@@ -16,14 +16,13 @@ int going_on_limit(int dim) { return 20 * dim + 200; }
 
 }  // namespace
 
-FormulationSolver::FormulationSolver(const FeasibleSet& set, Formulation formulation,
-                                     const LpOptions& options)
-    : set_(set), options_(options), layout_(make_layout(set, formulation)) {}
+FormulationSolver::FormulationSolver(const SlopeView& view, Formulation formulation, const LpOptions& options)
+    : view_(view), options_(options), layout_(make_layout(view, formulation)) {}
 
 LpAnswer FormulationSolver::maximise(const Objective& objective, const Basis& start,
                                      std::span<const int> held) {
   LpAnswer answer;
-  const bool has_start = static_cast<int>(start.size()) == set_.dim() && !start.empty();
+  const bool has_start = static_cast<int>(start.size()) == view_.dim() && !start.empty();
   const Rung first = !has_start ? kCold : stands_at(start) ? kGoOn : kWarm;
   for (int rung = first; rung < kRungs; ++rung) {
     ++answer.attempts;
@@ -47,7 +46,7 @@ GlpkProblem::Settings FormulationSolver::settings(Rung rung) const {
   result.feasibility = options_.feasibility;
   result.optimality = options_.optimality;
   result.iteration_limit = options_.iteration_limit;
-  if (rung == kGoOn) result.iteration_limit = std::min(result.iteration_limit, going_on_limit(set_.dim()));
+  if (rung == kGoOn) result.iteration_limit = std::min(result.iteration_limit, going_on_limit(view_.dim()));
   result.time_limit = options_.time_limit;
   result.presolve = rung == kPresolved;
   return result;
@@ -81,7 +80,7 @@ LpStatus FormulationSolver::attempt(Rung rung, const Objective& objective, const
   if (rung == kPresolved) problem_->scale(false);
   layout_->hold(*problem_, held, false);
   const LpStatus status = layout_->interpret(result);
-  const bool complete = static_cast<int>(answer.basis.size()) == set_.dim();
+  const bool complete = static_cast<int>(answer.basis.size()) == view_.dim();
   return status == LpStatus::kOptimal && !complete ? LpStatus::kFailed : status;
 }
 

@@ -17,7 +17,7 @@ namespace indet {
 class FormulationSolver {
  public:
   /// `set` must outlive the solver.
-  FormulationSolver(const FeasibleSet& set, Formulation formulation, const LpOptions& options);
+  FormulationSolver(const SlopeView& view, Formulation formulation, const LpOptions& options);
 
   /// As Maximiser::maximise; an empty `start` asks for a cold start.
   LpAnswer maximise(const Objective& objective, const Basis& start, std::span<const int> held);
@@ -30,7 +30,7 @@ class FormulationSolver {
   LpStatus attempt(Rung rung, const Objective& objective, const Basis& start, std::span<const int> held,
                    LpAnswer& answer);
 
-  const FeasibleSet& set_;
+  const SlopeView& view_;
   LpOptions options_;
   std::unique_ptr<Layout> layout_;
   std::unique_ptr<GlpkProblem> problem_;

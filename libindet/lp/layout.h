@@ -27,11 +27,11 @@ class Layout {
   virtual LpStatus interpret(GlpkProblem::Result result) const = 0;
 };
 
-std::unique_ptr<Layout> make_null_space_layout(const FeasibleSet& set);
-std::unique_ptr<Layout> make_dual_layout(const FeasibleSet& set);
+std::unique_ptr<Layout> make_null_space_layout(const SlopeView& view);
+std::unique_ptr<Layout> make_dual_layout(const SlopeView& view);
 std::unique_ptr<Layout> make_edge_layout(const FeasibleSet& set);
 
-/// The layout of the given formulation. `set` must outlive it.
-std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulation);
+/// The layout of the given formulation. `view` must outlive it, and has a set for kEdge.
+std::unique_ptr<Layout> make_layout(const SlopeView& view, Formulation formulation);
 
 }  // namespace indet

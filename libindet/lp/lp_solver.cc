@@ -13,10 +13,10 @@ namespace {
 constexpr std::array kFormulations = {Formulation::kDual, Formulation::kEdge, Formulation::kNullSpace};
 
 /// The formulation that was asked for, and those that step in where it fails.
-std::vector<Formulation> order_of(const FeasibleSet& set, Formulation first) {
+std::vector<Formulation> order_of(const SlopeView& view, Formulation first) {
   std::vector<Formulation> order{first};
   for (const Formulation formulation : kFormulations) {
-    const bool is_described = formulation != Formulation::kEdge || set.equations.cols() == set.inequalities();
+    const bool is_described = formulation != Formulation::kEdge || view.set;
     if (formulation != first && is_described) order.push_back(formulation);
   }
   return order;
@@ -24,14 +24,14 @@ std::vector<Formulation> order_of(const FeasibleSet& set, Formulation first) {
 
 }  // namespace
 
-std::unique_ptr<Layout> make_layout(const FeasibleSet& set, Formulation formulation) {
+std::unique_ptr<Layout> make_layout(const SlopeView& view, Formulation formulation) {
   switch (formulation) {
     case Formulation::kNullSpace:
-      return make_null_space_layout(set);
+      return make_null_space_layout(view);
     case Formulation::kDual:
-      return make_dual_layout(set);
+      return make_dual_layout(view);
     case Formulation::kEdge:
-      return make_edge_layout(set);
+      return make_edge_layout(*view.set);
   }
   throw LibraryError("unknown formulation");
 }
@@ -49,19 +49,19 @@ const char* to_string(Formulation formulation) {
 }
 
 struct LpSolver::Impl {
-  const FeasibleSet& set;
+  const SlopeView& view;
   LpOptions options;
   std::vector<Formulation> order;
   std::vector<std::unique_ptr<FormulationSolver>> solvers;  ///< in that order; made where needed
 
   FormulationSolver& solver(std::size_t i) {
-    if (i == solvers.size()) solvers.push_back(std::make_unique<FormulationSolver>(set, order[i], options));
+    if (i == solvers.size()) solvers.push_back(std::make_unique<FormulationSolver>(view, order[i], options));
     return *solvers[i];
   }
 };
 
-LpSolver::LpSolver(const FeasibleSet& set, Formulation formulation, const LpOptions& options)
-    : impl_(std::make_unique<Impl>(set, options, order_of(set, formulation))) {}
+LpSolver::LpSolver(const SlopeView& view, Formulation formulation, const LpOptions& options)
+    : impl_(std::make_unique<Impl>(view, options, order_of(view, formulation))) {}
 
 LpSolver::~LpSolver() = default;
 

@@ -14,9 +14,9 @@ namespace indet {
 /// How a linear program over a FeasibleSet is given to the simplex method (docs/theory.md). All three take
 /// and return the same warm start, a Basis.
 enum class Formulation : std::uint8_t {
-  kNullSpace,  ///< the explicit form: K rows × d free dense columns; primal simplex
+  kNullSpace,  ///< the slope view: K rows × d free dense columns; primal simplex
   kDual,       ///< its dual: d rows × K columns, the objective is the right-hand side; dual simplex
-  kEdge        ///< the implicit form: r sparse equations × K columns ≥ 0; primal simplex
+  kEdge        ///< the set itself: r sparse equations × K columns ≥ 0; primal simplex
 };
 
 const char* to_string(Formulation formulation);
@@ -34,13 +34,13 @@ struct LpOptions {
 /// used and destroyed on one thread.
 ///
 /// Where one formulation finds no optimum (formulation_solver.h), the others are tried, dual, edge,
-/// nullspace, from the same start; kEdge only where the set has its implicit description. A basis proves an
+/// nullspace, from the same start; kEdge only where the view has a set. A basis proves an
 /// optimum, and is taken whoever found it; that there is none is believed once two formulations say the same,
 /// or one says so and the others fail.
 class LpSolver : public Maximiser {
  public:
-  /// Precondition: for kEdge the set has its implicit description. `set` must outlive the solver.
-  LpSolver(const FeasibleSet& set, Formulation formulation, const LpOptions& options = {});
+  /// Precondition: for kEdge the view has a set. `view` must outlive the solver.
+  LpSolver(const SlopeView& view, Formulation formulation, const LpOptions& options = {});
   ~LpSolver() override;
   LpSolver(const LpSolver&) = delete;
   LpSolver& operator=(const LpSolver&) = delete;

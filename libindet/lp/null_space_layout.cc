@@ -9,40 +9,40 @@ namespace {
 /// At a vertex the d active rows are nonbasic at their bound, and all columns are basic.
 class NullSpaceLayout : public Layout {
  public:
-  explicit NullSpaceLayout(const FeasibleSet& set) : set_(set) {}
+  explicit NullSpaceLayout(const SlopeView& view) : view_(view) {}
 
   std::unique_ptr<GlpkProblem> build() const override {
-    auto problem = std::make_unique<GlpkProblem>(set_.inequalities(), set_.dim(), true);
+    auto problem = std::make_unique<GlpkProblem>(view_.inequalities(), view_.dim(), true);
     std::vector<GlpkProblem::Entry> entries;
-    for (int k = 0; k < set_.inequalities(); ++k) {
-      problem->bound_row(k, GlpkProblem::Bound::kLower, -set_.offset[k]);
-      for (int j = 0; j < set_.dim(); ++j) {
-        if (set_.slope(k, j) != 0) entries.push_back({k, j, set_.slope(k, j)});
+    for (int k = 0; k < view_.inequalities(); ++k) {
+      problem->bound_row(k, GlpkProblem::Bound::kLower, -view_.offset[k]);
+      for (int j = 0; j < view_.dim(); ++j) {
+        if (view_.slope(k, j) != 0) entries.push_back({k, j, view_.slope(k, j)});
       }
     }
-    for (int j = 0; j < set_.dim(); ++j) problem->bound_column(j, GlpkProblem::Bound::kFree, 0);
+    for (int j = 0; j < view_.dim(); ++j) problem->bound_column(j, GlpkProblem::Bound::kFree, 0);
     problem->load(entries);
     return problem;
   }
 
   void set_objective(GlpkProblem& problem, const Objective& objective) override {
-    for (int j = 0; j < set_.dim(); ++j) problem.set_cost(j, objective.along_z[j]);
+    for (int j = 0; j < view_.dim(); ++j) problem.set_cost(j, objective.along_z[j]);
   }
 
   void set_start(GlpkProblem& problem, std::span<const int> basis) const override {
-    for (int j = 0; j < set_.dim(); ++j) problem.set_column_status(j, GlpkProblem::Status::kBasic);
-    for (int k = 0; k < set_.inequalities(); ++k) problem.set_row_status(k, GlpkProblem::Status::kBasic);
+    for (int j = 0; j < view_.dim(); ++j) problem.set_column_status(j, GlpkProblem::Status::kBasic);
+    for (int k = 0; k < view_.inequalities(); ++k) problem.set_row_status(k, GlpkProblem::Status::kBasic);
     for (const int k : basis) problem.set_row_status(k, GlpkProblem::Status::kNonbasic);
   }
 
   void hold(GlpkProblem& problem, std::span<const int> held, bool on) const override {
     const auto bound = on ? GlpkProblem::Bound::kFixed : GlpkProblem::Bound::kLower;
-    for (const int k : held) problem.bound_row(k, bound, -set_.offset[k]);
+    for (const int k : held) problem.bound_row(k, bound, -view_.offset[k]);
   }
 
   Basis read_basis(const GlpkProblem& problem) const override {
     Basis basis;
-    for (int k = 0; k < set_.inequalities(); ++k) {
+    for (int k = 0; k < view_.inequalities(); ++k) {
       if (!problem.is_row_basic(k)) basis.push_back(k);
     }
     return basis;
@@ -64,13 +64,13 @@ class NullSpaceLayout : public Layout {
   }
 
  private:
-  const FeasibleSet& set_;
+  const SlopeView& view_;
 };
 
 }  // namespace
 
-std::unique_ptr<Layout> make_null_space_layout(const FeasibleSet& set) {
-  return std::make_unique<NullSpaceLayout>(set);
+std::unique_ptr<Layout> make_null_space_layout(const SlopeView& view) {
+  return std::make_unique<NullSpaceLayout>(view);
 }
 
 }  // namespace indet

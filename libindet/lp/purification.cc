@@ -43,18 +43,18 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& free, const Eigen::VectorXd& row)
 
 }  // namespace
 
-Basis purify_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const Eigen::VectorXd& guide) {
-  const int d = set.dim();
+Basis purify_to_vertex(const SlopeView& view, const Eigen::VectorXd& z, const Eigen::VectorXd& guide) {
+  const int d = view.dim();
   Basis basis;
-  std::vector<bool> active(static_cast<std::size_t>(set.inequalities()), false);
+  std::vector<bool> active(static_cast<std::size_t>(view.inequalities()), false);
   Eigen::MatrixXd free = Eigen::MatrixXd::Identity(d, d);
-  Eigen::VectorXd x = set.offset + set.slope * z;
+  Eigen::VectorXd x = view.offset + view.slope * z;
   while (free.cols() > 0) {
     const Eigen::VectorXd projected = free.transpose() * guide;
     const bool guided = projected.norm() > tolerance::kPurificationRate * std::max(1.0, guide.norm());
     Eigen::VectorXd direction =
         guided ? Eigen::VectorXd(free * projected.normalized()) : Eigen::VectorXd(free.col(0));
-    Eigen::VectorXd rate = set.slope * direction;
+    Eigen::VectorXd rate = view.slope * direction;
     Stop stop = first_stop(x, rate, active);
     if (stop.inequality < 0) {  // nothing in that way: the set is unbounded there; turn round
       rate = -rate;
@@ -65,7 +65,7 @@ Basis purify_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const E
     x[stop.inequality] = 0;
     active[static_cast<std::size_t>(stop.inequality)] = true;
     basis.push_back(stop.inequality);
-    free = without(free, set.slope.row(stop.inequality).transpose());
+    free = without(free, view.slope.row(stop.inequality).transpose());
   }
   std::sort(basis.begin(), basis.end());
   return basis;

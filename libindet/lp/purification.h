@@ -14,6 +14,6 @@ namespace indet {
 /// This gives the simplex method a feasible start, and turns an optimal point that is not a vertex into one
 /// (on an optimal face the projected objective vanishes, so the value stays). Preconditions: x(z) ≥ 0 up to
 /// rounding; the set contains no line (slope has rank d).
-Basis purify_to_vertex(const FeasibleSet& set, const Eigen::VectorXd& z, const Eigen::VectorXd& guide);
+Basis purify_to_vertex(const SlopeView& view, const Eigen::VectorXd& z, const Eigen::VectorXd& guide);
 
 }  // namespace indet

@@ -9,11 +9,11 @@
 
 namespace indet {
 
-Objective make_objective(const FeasibleSet& set, std::vector<std::pair<int, double>> on_edges) {
+Objective make_objective(const SlopeView& view, std::vector<std::pair<int, double>> on_edges) {
   Objective objective;
-  objective.along_z = Eigen::VectorXd::Zero(set.dim());
+  objective.along_z = Eigen::VectorXd::Zero(view.dim());
   for (const auto& [index, coefficient] : on_edges)
-    objective.along_z += coefficient * set.slope.row(index).transpose();
+    objective.along_z += coefficient * view.slope.row(index).transpose();
   objective.on_edges = std::move(on_edges);
   return objective;
 }
@@ -30,15 +30,15 @@ Eigen::VectorXd Vertex::multipliers(const Eigen::Ref<const Eigen::VectorXd>& g) 
   return -costs;
 }
 
-Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
+Vertex compute_vertex(const SlopeView& view, const Basis& basis) {
   Vertex vertex;
   vertex.basis = basis;
-  const int d = set.dim();
+  const int d = view.dim();
   if (static_cast<int>(basis.size()) != d)
     throw LibraryError("a vertex needs as many active inequalities as dimensions");
   if (d > 0) {
-    const Eigen::MatrixXd rows = set.slope(basis, Eigen::all);
-    const Eigen::VectorXd offset = set.offset(basis);
+    const Eigen::MatrixXd rows = view.slope(basis, Eigen::all);
+    const Eigen::VectorXd offset = view.offset(basis);
     vertex.active.compute(rows);
     vertex.z = vertex.active.solve(-offset);
     vertex.z += vertex.active.solve(-offset - rows * vertex.z);
@@ -46,13 +46,13 @@ Vertex compute_vertex(const FeasibleSet& set, const Basis& basis) {
   } else {
     vertex.z.resize(0);
   }
-  vertex.x = set.offset + set.slope * vertex.z;
+  vertex.x = view.offset + view.slope * vertex.z;
   for (const int k : basis) vertex.x[k] = 0;
   return vertex;
 }
 
-double polytope_edge_length(const FeasibleSet& set, const Vertex& vertex, int k) {
-  Eigen::VectorXd direction = set.slope * vertex.edge_direction(k);
+double polytope_edge_length(const SlopeView& view, const Vertex& vertex, int k) {
+  Eigen::VectorXd direction = view.slope * vertex.edge_direction(k);
   for (const int active : vertex.basis) direction[active] = 0;
   double length = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {

@@ -28,10 +28,10 @@ struct Vertex {
 };
 
 /// Throws LibraryError if the active rows are not independent. Preconditions: basis.size() = d.
-Vertex compute_vertex(const FeasibleSet& set, const Basis& basis);
+Vertex compute_vertex(const SlopeView& view, const Basis& basis);
 
 /// How far one can go from the vertex along the polytope's edge k (the direction edge_direction(k)) before
 /// another inequality stops it; +inf if nothing does. Inequalities in `basis` other than k hold along it.
-double polytope_edge_length(const FeasibleSet& set, const Vertex& vertex, int k);
+double polytope_edge_length(const SlopeView& view, const Vertex& vertex, int k);
 
 }  // namespace indet

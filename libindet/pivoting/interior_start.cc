@@ -29,20 +29,20 @@ double way_ahead(const Eigen::VectorXd& x, const Eigen::VectorXd& rate, const st
 }
 
 /// Leaves one of the active inequalities; false if none can be left.
-bool leave_one(const FeasibleSet& set, const std::vector<int>& active, double epsilon, Eigen::VectorXd& z,
+bool leave_one(const SlopeView& view, const std::vector<int>& active, double epsilon, Eigen::VectorXd& z,
                Eigen::VectorXd& x) {
-  const Eigen::MatrixXd rows = set.slope(active, Eigen::all);
+  const Eigen::MatrixXd rows = view.slope(active, Eigen::all);
   const MinimumNormSolver solver(rows);
   for (std::size_t i = 0; i < active.size(); ++i) {
     const Eigen::VectorXd wanted =
         Eigen::VectorXd::Unit(static_cast<Eigen::Index>(active.size()), static_cast<Eigen::Index>(i));
     const Eigen::VectorXd direction = solver.solve(wanted);
     if ((rows * direction - wanted).lpNorm<Eigen::Infinity>() > tolerance::kLeavingDirection) continue;
-    const Eigen::VectorXd rate = set.slope * direction;
+    const Eigen::VectorXd rate = view.slope * direction;
     const double step = std::min(1.0, way_ahead(x, rate, active) / 2);
     if (step < 2 * epsilon) continue;
     z += step * direction;
-    x = set.offset + set.slope * z;
+    x = view.offset + view.slope * z;
     return true;
   }
   return false;
@@ -64,12 +64,12 @@ const char* to_string(InteriorEnd end) {
   return "?";
 }
 
-InteriorStart leave_sliding_contacts(const FeasibleSet& set, const Eigen::VectorXd& simulated,
+InteriorStart leave_sliding_contacts(const SlopeView& view, const Eigen::VectorXd& simulated,
                                      double epsilon) {
   InteriorStart start;
   if (!simulated.allFinite()) return start;
-  Eigen::VectorXd z = solve_least_squares_pivoted(set.slope, simulated - set.offset);
-  Eigen::VectorXd x = set.offset + set.slope * z;
+  Eigen::VectorXd z = solve_least_squares_pivoted(view.slope, simulated - view.offset);
+  Eigen::VectorXd x = view.offset + view.slope * z;
   const double scale = std::max(1.0, simulated.lpNorm<Eigen::Infinity>());
   if ((x - simulated).lpNorm<Eigen::Infinity>() > tolerance::kSimulatedState * scale ||
       x.minCoeff() < -epsilon) {
@@ -79,7 +79,7 @@ InteriorStart leave_sliding_contacts(const FeasibleSet& set, const Eigen::Vector
   std::vector<int> active = active_at(x, epsilon);
   start.sliding = static_cast<int>(active.size());
   while (!active.empty()) {
-    if (!leave_one(set, active, epsilon, z, x)) {
+    if (!leave_one(view, active, epsilon, z, x)) {
       start.end = InteriorEnd::kTightCorner;
       return start;
     }

@@ -30,7 +30,6 @@ struct InteriorStart {
 /// another simulated state.
 ///
 /// `simulated`: x of the simulated state, K, in force units. Active is what is below `epsilon`.
-InteriorStart leave_sliding_contacts(const FeasibleSet& set, const Eigen::VectorXd& simulated,
-                                     double epsilon);
+InteriorStart leave_sliding_contacts(const SlopeView& view, const Eigen::VectorXd& simulated, double epsilon);
 
 }  // namespace indet

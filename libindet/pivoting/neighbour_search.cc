@@ -20,15 +20,15 @@ struct Neighbours {
   std::vector<int> stop;      ///< the inequality that ends it, or −1
 };
 
-Neighbours find_neighbours(const FeasibleSet& set, const Eigen::VectorXd& x,
+Neighbours find_neighbours(const SlopeView& view, const Eigen::VectorXd& x,
                            const std::vector<char>& is_active,
                            const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
   Neighbours result;
   result.direction = factors.inverse();
-  const Eigen::MatrixXd rate = set.slope * result.direction;
-  result.length = Eigen::VectorXd::Constant(set.dim(), kInfinity);
-  result.stop.assign(static_cast<std::size_t>(set.dim()), -1);
-  for (Eigen::Index j = 0; j < set.dim(); ++j) {
+  const Eigen::MatrixXd rate = view.slope * result.direction;
+  result.length = Eigen::VectorXd::Constant(view.dim(), kInfinity);
+  result.stop.assign(static_cast<std::size_t>(view.dim()), -1);
+  for (Eigen::Index j = 0; j < view.dim(); ++j) {
     for (Eigen::Index k = 0; k < rate.rows(); ++k) {
       const double approach = -rate(k, j);
       if (approach <= tolerance::kStepRate || is_active[static_cast<std::size_t>(k)] != 0) continue;
@@ -66,16 +66,16 @@ const char* to_string(WalkEnd end) {
   return "?";
 }
 
-NeighbourSearch::NeighbourSearch(const FeasibleSet& set, double epsilon) : set_(set), epsilon_(epsilon) {}
+NeighbourSearch::NeighbourSearch(const SlopeView& view, double epsilon) : view_(view), epsilon_(epsilon) {}
 
 NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& start) const {
   NeighbourWalk walk;
   walk.basis = start;
-  const Vertex vertex = compute_vertex(set_, start);
+  const Vertex vertex = compute_vertex(view_, start);
   Eigen::VectorXd z = vertex.z;
   Eigen::VectorXd x = vertex.x;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors = vertex.active;
-  std::vector<char> is_active(static_cast<std::size_t>(set_.inequalities()), 0);
+  std::vector<char> is_active(static_cast<std::size_t>(view_.inequalities()), 0);
   for (const int k : start) is_active[static_cast<std::size_t>(k)] = 1;
   double value = objective.along_z.dot(z);
   const auto end_at = [&](WalkEnd end) {
@@ -84,17 +84,17 @@ NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& sta
     return walk;
   };
   for (;;) {
-    if (walk.steps > 0) factors.compute(set_.slope(walk.basis, Eigen::all));
+    if (walk.steps > 0) factors.compute(view_.slope(walk.basis, Eigen::all));
     if (is_singular(factors)) return end_at(WalkEnd::kDirectionsLost);
     const bool has_drifted = x(walk.basis).cwiseAbs().maxCoeff() > epsilon_;
-    const bool has_more = (x.array() < epsilon_).count() > set_.dim();
+    const bool has_more = (x.array() < epsilon_).count() > view_.dim();
     walk.unexpected += has_more ? 1 : 0;
-    walk.neighbours += set_.dim();
-    const Neighbours neighbours = find_neighbours(set_, x, is_active, factors);
+    walk.neighbours += view_.dim();
+    const Neighbours neighbours = find_neighbours(view_, x, is_active, factors);
     const Eigen::VectorXd slope = neighbours.direction.transpose() * objective.along_z;
     int best = -1;
     double best_gain = tolerance::kImprovingGain * std::max(1.0, std::abs(value));
-    for (int j = 0; j < set_.dim(); ++j) {
+    for (int j = 0; j < view_.dim(); ++j) {
       if (slope[j] <= tolerance::kImprovingSlope || slope[j] * neighbours.length[j] <= best_gain) continue;
       best = j;
       best_gain = slope[j] * neighbours.length[j];
@@ -107,7 +107,7 @@ NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& sta
     if (stop < 0) return end_at(WalkEnd::kPolytopeEdgeWithoutEnd);
     if (walk.steps == kStepLimit) return end_at(WalkEnd::kStepLimit);
     z += neighbours.length[best] * neighbours.direction.col(best);
-    x = set_.offset + set_.slope * z;
+    x = view_.offset + view_.slope * z;
     value = objective.along_z.dot(z);
     int& left = walk.basis[static_cast<std::size_t>(best)];
     is_active[static_cast<std::size_t>(left)] = 0;

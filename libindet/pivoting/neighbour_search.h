@@ -42,13 +42,13 @@ struct NeighbourWalk {
 class NeighbourSearch {
  public:
   /// `set` must outlive the search. `epsilon`: an inequality below it is active (force units).
-  NeighbourSearch(const FeasibleSet& set, double epsilon);
+  NeighbourSearch(const SlopeView& view, double epsilon);
 
   /// From a vertex to one that maximises the objective.
   NeighbourWalk walk(const Objective& objective, const Basis& start) const;
 
  private:
-  const FeasibleSet& set_;
+  const SlopeView& view_;
   double epsilon_;
 };
 

@@ -38,29 +38,29 @@ INDET_WIDE void project_and_add(double* y, const double* x, double* p, double f,
 
 }  // namespace
 
-Tableau::Tableau(const FeasibleSet& set, bool with_weights) : set_(set), with_weights_(with_weights) {
+Tableau::Tableau(const SlopeView& view, bool with_weights) : view_(view), with_weights_(with_weights) {
   Random random(1);
-  Eigen::VectorXd u(set.dim());
+  Eigen::VectorXd u(view.dim());
   for (double& value : u) value = random.uniform(-1, 1);
-  probe_ = set.slope * u;
+  probe_ = view.slope * u;
 }
 
 bool Tableau::build(const Basis& basis) {
   active_ = basis;
   slack_.clear();
-  std::vector<bool> is_active(static_cast<std::size_t>(set_.inequalities()), false);
+  std::vector<bool> is_active(static_cast<std::size_t>(view_.inequalities()), false);
   for (const int k : basis) is_active[static_cast<std::size_t>(k)] = true;
-  for (int k = 0; k < set_.inequalities(); ++k) {
+  for (int k = 0; k < view_.inequalities(); ++k) {
     if (!is_active[static_cast<std::size_t>(k)]) slack_.push_back(k);
   }
-  const Eigen::MatrixXd rows = set_.slope(active_, Eigen::all);
+  const Eigen::MatrixXd rows = view_.slope(active_, Eigen::all);
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(rows.transpose());
   const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
   if (!(pivots.minCoeff() > tolerance::kSingularExchange * pivots.maxCoeff())) {
     active_.clear();
     return false;
   }
-  rates_ = factors.solve(set_.slope(slack_, Eigen::all).transpose()).transpose();
+  rates_ = factors.solve(view_.slope(slack_, Eigen::all).transpose()).transpose();
   column_.resize(rates_.rows());
   update_positions();
   recompute_slacks();
@@ -71,7 +71,7 @@ bool Tableau::build(const Basis& basis) {
 bool Tableau::move_to(const Basis& basis) {
   if (!is_built()) return build(basis);
   std::vector<int> rows;
-  std::vector<bool> wanted(static_cast<std::size_t>(set_.inequalities()), false);
+  std::vector<bool> wanted(static_cast<std::size_t>(view_.inequalities()), false);
   for (const int k : basis) {
     wanted[static_cast<std::size_t>(k)] = true;
     if (row_of(k) >= 0) rows.push_back(row_of(k));
@@ -165,8 +165,8 @@ double Tableau::error() const {
 }
 
 void Tableau::recompute_slacks() {
-  const Eigen::VectorXd at_active = set_.offset(active_);
-  slacks_ = set_.offset(slack_);
+  const Eigen::VectorXd at_active = view_.offset(active_);
+  slacks_ = view_.offset(slack_);
   slacks_.noalias() -= rates_ * at_active;
 }
 
@@ -195,7 +195,7 @@ Basis Tableau::basis() const {
 }
 
 void Tableau::update_positions() {
-  position_.assign(static_cast<std::size_t>(set_.inequalities()), {});
+  position_.assign(static_cast<std::size_t>(view_.inequalities()), {});
   for (std::size_t i = 0; i < slack_.size(); ++i)
     position_[static_cast<std::size_t>(slack_[i])].row = static_cast<int>(i);
   for (std::size_t j = 0; j < active_.size(); ++j)

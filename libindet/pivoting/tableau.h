@@ -24,7 +24,7 @@ class Tableau {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   /// `set` must outlive the tableau; slope of rank d ≥ 1. Holds no vertex before build().
-  Tableau(const FeasibleSet& set, bool with_weights);
+  Tableau(const SlopeView& view, bool with_weights);
 
   bool is_built() const { return !active_.empty(); }
 
@@ -69,7 +69,7 @@ class Tableau {
   void update_positions();
   void recompute_weights();
 
-  const FeasibleSet& set_;
+  const SlopeView& view_;
   bool with_weights_;
   int weight_updates_ = 0;
   Eigen::VectorXd probe_;  ///< s = S u

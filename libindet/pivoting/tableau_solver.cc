@@ -16,8 +16,8 @@ constexpr std::int64_t kRenewal = 2000;
 
 }  // namespace
 
-TableauSolver::TableauSolver(const FeasibleSet& set, PivotRule rule, const LpOptions& options)
-    : rule_(rule), options_(options), tableau_(set, rule == PivotRule::kSteepestEdge) {}
+TableauSolver::TableauSolver(const SlopeView& view, PivotRule rule, const LpOptions& options)
+    : rule_(rule), options_(options), tableau_(view, rule == PivotRule::kSteepestEdge) {}
 
 LpAnswer TableauSolver::maximise(const Objective& objective, const Basis& start, std::span<const int> held) {
   LpAnswer answer;

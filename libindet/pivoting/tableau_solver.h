@@ -20,7 +20,7 @@ namespace indet {
 class TableauSolver : public Maximiser {
  public:
   /// `set` must outlive the solver. Of the options the optimality tolerance and the limits are used.
-  explicit TableauSolver(const FeasibleSet& set, PivotRule rule = PivotRule::kSteepestEdge,
+  explicit TableauSolver(const SlopeView& view, PivotRule rule = PivotRule::kSteepestEdge,
                          const LpOptions& options = {});
 
   LpAnswer maximise(const Objective& objective, const Basis& start, std::span<const int> held = {}) override;

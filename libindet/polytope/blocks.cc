@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numeric>
 
 #include "libindet/base/tolerances.h"
@@ -28,7 +29,7 @@ class DisjointSets {
 };
 
 /// Columns of the edge matrix of one block, with as many independent rows as it has.
-void add_implicit_description(const EquilibriumProblem& problem, PolytopeBlock& block) {
+void describe_sparsely(const EquilibriumProblem& problem, PolytopeBlock& block) {
   Eigen::SparseMatrix<double> columns(problem.equations(), static_cast<Eigen::Index>(block.edges.size()));
   std::vector<Eigen::Triplet<double>> triplets;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
@@ -46,14 +47,16 @@ void add_implicit_description(const EquilibriumProblem& problem, PolytopeBlock& 
     const int row = number[static_cast<std::size_t>(entry.row())];
     if (row >= 0) kept.emplace_back(row, entry.col(), entry.value());
   }
-  block.set.equations.resize(static_cast<Eigen::Index>(rows.size()), columns.cols());
-  block.set.equations.setFromTriplets(kept.begin(), kept.end());
-  block.set.right_hand_side = block.set.equations * block.set.offset;
+  const auto set = std::make_shared<FeasibleSet>();
+  set->equations.resize(static_cast<Eigen::Index>(rows.size()), columns.cols());
+  set->equations.setFromTriplets(kept.begin(), kept.end());
+  set->right_hand_side = set->equations * block.view.offset;
+  block.set = block.view.set = set;
 }
 
 }  // namespace
 
-std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, const FeasibleSet& whole,
+std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, const SlopeView& whole,
                                              const Vertex& vertex) {
   const int d = whole.dim();
   const int count = whole.inequalities();
@@ -87,15 +90,15 @@ std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, 
   for (auto& [root, block] : by_root) {
     const std::vector<int>& columns = coordinates[root];
     if (static_cast<int>(columns.size()) == d) {
-      block.set.slope = whole.slope(block.edges, Eigen::all);
+      block.view.slope = whole.slope(block.edges, Eigen::all);
     } else {
       const Eigen::MatrixXd part = D(block.edges, columns);
-      block.set.slope = factorise_qr(part).Q;
+      block.view.slope = factorise_qr(part).Q;
     }
-    block.set.offset = whole.offset(block.edges);
+    block.view.offset = whole.offset(block.edges);
     if (static_cast<int>(columns.size()) != d) {
       // Any point of the block serves as origin; the lightest vertex is one.
-      block.set.offset = vertex.x(block.edges);
+      block.view.offset = vertex.x(block.edges);
     }
     for (const int j : columns) {
       const int active = vertex.basis[static_cast<std::size_t>(j)];
@@ -103,7 +106,7 @@ std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, 
       block.lightest.push_back(static_cast<int>(local - block.edges.begin()));
     }
     std::sort(block.lightest.begin(), block.lightest.end());
-    add_implicit_description(problem, block);
+    describe_sparsely(problem, block);
     blocks.push_back(std::move(block));
   }
   std::sort(blocks.begin(), blocks.end(),

@@ -35,11 +35,11 @@ ContactMode close_edge(ContactMode mode, int sign) {
   return sign > 0 ? ContactMode::kSlideMinus : ContactMode::kSlidePlus;
 }
 
-FeasibleSet feasible_set(const EquilibriumProblem& problem, const NullSpace& null_space) {
-  FeasibleSet set;
-  set.slope = problem.to_edges * null_space.basis;
-  set.offset = problem.to_edges * null_space.particular;
-  return set;
+SlopeView slope_view(const EquilibriumProblem& problem, const NullSpace& null_space) {
+  SlopeView view;
+  view.slope = problem.to_edges * null_space.basis;
+  view.offset = problem.to_edges * null_space.particular;
+  return view;
 }
 
 /// True if the sign of t, or that it is zero, could be the work of rounding.
@@ -66,7 +66,7 @@ int exact_number(const Edge& edge) { return 2 * edge.contact.value() + (edge.sig
 
 /// A full-dimensional set with a point in its interior.
 struct InteriorSet {
-  FeasibleSet set;
+  SlopeView view;
   Eigen::VectorXd z;
 };
 
@@ -90,8 +90,8 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
       prove_emptiness(null_space.unbalanced);
       return {};
     }
-    FeasibleSet set = feasible_set(problem, null_space);
-    const InteriorPoint interior = find_interior_point(set, options);
+    SlopeView view = slope_view(problem, null_space);
+    const InteriorPoint interior = find_interior_point(view, options);
     polytope.pivots += interior.pivots;
     ++polytope.solves;
     polytope.interior_slack = interior.slack;
@@ -102,8 +102,8 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     polytope.doubtful = polytope.doubtful || is_doubtful(interior, is_zero, scale);
     if (!is_zero && interior.slack > 0) {
       polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, null_space.rank);
-      polytope.interior = set.offset + set.slope * interior.z;
-      return InteriorSet{set, interior.z};
+      polytope.interior = view.offset + view.slope * interior.z;
+      return InteriorSet{view, interior.z};
     }
     const Eigen::VectorXd velocities = problem.to_edges.transpose() * interior.multipliers;
     Eigen::VectorXd motion = motion_from_contacts(null_space, problem.equations(), velocities);
@@ -115,7 +115,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     std::vector<ContactMode> modes = problem.modes;
     exact::Closing closing{{}, on_exact_rows(exact, problem, motion)};
     const double significant = interior.multipliers.maxCoeff() * tolerance::kClosingMultiplier;
-    for (int k = 0; k < set.inequalities(); ++k) {
+    for (int k = 0; k < view.inequalities(); ++k) {
       if (interior.multipliers[k] <= significant) continue;
       const Edge& edge = problem.edges[static_cast<std::size_t>(k)];
       ContactMode& mode = modes[static_cast<std::size_t>(edge.contact.value())];
@@ -132,18 +132,18 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
 
 Vertex find_lightest_vertex(const EquilibriumProblem& problem, const InteriorSet& interior,
                             const LpOptions& options, ForcePolytope& polytope) {
-  const FeasibleSet& set = interior.set;
+  const SlopeView& view = interior.view;
   std::vector<std::pair<int, double>> normal_forces;
-  for (int k = 0; k < set.inequalities(); ++k)
+  for (int k = 0; k < view.inequalities(); ++k)
     normal_forces.emplace_back(k, -problem.edges[static_cast<std::size_t>(k)].R);
-  LpSolver solver(set, Formulation::kDual, options);
-  const Objective lightness = make_objective(set, normal_forces);
-  const LpAnswer answer = solver.maximise(lightness, purify_to_vertex(set, interior.z, lightness.along_z));
+  LpSolver solver(view, Formulation::kDual, options);
+  const Objective lightness = make_objective(view, normal_forces);
+  const LpAnswer answer = solver.maximise(lightness, purify_to_vertex(view, interior.z, lightness.along_z));
   polytope.pivots += answer.pivots;
   ++polytope.solves;
   if (answer.status != LpStatus::kOptimal)
     throw LibraryError("no vertex of the force polytope could be found");
-  return compute_vertex(set, answer.basis);
+  return compute_vertex(view, answer.basis);
 }
 
 }  // namespace
@@ -173,15 +173,15 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   const std::optional<InteriorSet> interior = reduce_to_full_dimension(options, polytope);
   if (!interior) return polytope;
 
-  const FeasibleSet& set = interior->set;
-  polytope.dim = set.dim();
+  const SlopeView& view = interior->view;
+  polytope.dim = view.dim();
   if (polytope.dim == 0) {
     polytope.status = PolytopeStatus::kPoint;
-    polytope.lightest = set.offset;
-    polytope.bounding_multipliers.setZero(set.inequalities());
+    polytope.lightest = view.offset;
+    polytope.bounding_multipliers.setZero(view.inequalities());
     return polytope;
   }
-  RecessionRay ray = find_recession_ray(set, options);
+  RecessionRay ray = find_recession_ray(view, options);
   polytope.pivots += ray.pivots;
   ++polytope.solves;
   polytope.doubtful = polytope.doubtful || ray.infeasibility > ray.noise;
@@ -190,11 +190,11 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   polytope.status = polytope.ray.size() > 0 ? PolytopeStatus::kUnbounded : PolytopeStatus::kBounded;
   const Vertex lightest = find_lightest_vertex(polytope.problem, *interior, options, polytope);
   polytope.lightest = lightest.x;
-  polytope.blocks = split_into_blocks(polytope.problem, set, lightest);
+  polytope.blocks = split_into_blocks(polytope.problem, view, lightest);
   const bool is_unbounded = polytope.status == PolytopeStatus::kUnbounded;
   for (PolytopeBlock& block : polytope.blocks) {
     block.unbounded =
-        is_unbounded && (polytope.blocks.size() == 1 || find_recession_ray(block.set, options).x.size() > 0);
+        is_unbounded && (polytope.blocks.size() == 1 || find_recession_ray(block.view, options).x.size() > 0);
   }
   return polytope;
 }

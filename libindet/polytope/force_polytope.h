@@ -26,7 +26,8 @@ const char* to_string(PolytopeStatus status);
 /// An independent part of F: the strengths x of some contacts' edges, coupled to each other and to no others.
 /// F is the product of its blocks and of the edges that are determined.
 struct PolytopeBlock {
-  FeasibleSet set;         ///< full-dimensional; the implicit description included
+  std::shared_ptr<const FeasibleSet> set;  ///< full-dimensional
+  SlopeView view;                          ///< of that set
   std::vector<int> edges;  ///< local index of x → index into ForcePolytope::problem.edges; ascending
   Basis lightest;          ///< the vertex of smallest total normal force
   bool unbounded = false;

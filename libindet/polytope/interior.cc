@@ -16,21 +16,21 @@ namespace {
 constexpr double kMagnification = 1e4;
 
 /// Maximises by the dual formulation, and where that fails by the explicit one.
-LpAnswer maximise_robustly(const FeasibleSet& set, const Objective& objective, const Basis& start,
+LpAnswer maximise_robustly(const SlopeView& view, const Objective& objective, const Basis& start,
                            const LpOptions& options) {
-  LpAnswer answer = LpSolver(set, Formulation::kDual, options).maximise(objective, start);
+  LpAnswer answer = LpSolver(view, Formulation::kDual, options).maximise(objective, start);
   if (answer.status == LpStatus::kOptimal) return answer;
   const std::int64_t pivots = answer.pivots;
-  answer = LpSolver(set, Formulation::kNullSpace, options).maximise(objective, start);
+  answer = LpSolver(view, Formulation::kNullSpace, options).maximise(objective, start);
   answer.pivots += pivots;
   return answer;
 }
 
 }  // namespace
 
-InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& options) {
-  const int d = set.dim();
-  const int count = set.inequalities();
+InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& options) {
+  const int d = view.dim();
+  const int count = view.inequalities();
   InteriorPoint result;
   result.multipliers = Eigen::VectorXd::Zero(count);
   if (count == 0) {
@@ -39,12 +39,12 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
     return result;
   }
   // (z, t) with x − t ≥ 0 and 1 − t ≥ 0.
-  FeasibleSet lifted;
+  SlopeView lifted;
   lifted.slope = Eigen::MatrixXd::Zero(count + 1, d + 1);
-  lifted.slope.topLeftCorner(count, d) = set.slope;
+  lifted.slope.topLeftCorner(count, d) = view.slope;
   lifted.slope.col(d).setConstant(-1);
   lifted.offset.resize(count + 1);
-  lifted.offset << kMagnification * set.offset, kMagnification;
+  lifted.offset << kMagnification * view.offset, kMagnification;
   Objective height;
   height.along_z = Eigen::VectorXd::Unit(d + 1, d);
 
@@ -70,20 +70,20 @@ InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& optio
   return result;
 }
 
-FeasibleSet truncated_recession_cone(const FeasibleSet& set) {
-  const int count = set.inequalities();
-  FeasibleSet cone;
-  cone.slope.resize(count + 1, set.dim());
-  cone.slope << set.slope, -set.slope.colwise().sum();
+SlopeView truncated_recession_cone(const SlopeView& view) {
+  const int count = view.inequalities();
+  SlopeView cone;
+  cone.slope.resize(count + 1, view.dim());
+  cone.slope << view.slope, -view.slope.colwise().sum();
   cone.offset = Eigen::VectorXd::Unit(count + 1, count);
   return cone;
 }
 
-RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options) {
-  const FeasibleSet cone = truncated_recession_cone(set);
+RecessionRay find_recession_ray(const SlopeView& view, const LpOptions& options) {
+  const SlopeView cone = truncated_recession_cone(view);
   Objective total;
-  total.along_z = set.slope.colwise().sum().transpose();
-  const Basis start = purify_to_vertex(cone, Eigen::VectorXd::Zero(set.dim()), total.along_z);
+  total.along_z = view.slope.colwise().sum().transpose();
+  const Basis start = purify_to_vertex(cone, Eigen::VectorXd::Zero(view.dim()), total.along_z);
   const LpAnswer answer = maximise_robustly(cone, total, start, options);
   if (answer.status != LpStatus::kOptimal)
     throw LibraryError("the linear program for a recession ray could not be solved");
@@ -92,14 +92,14 @@ RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options
   ray.pivots = answer.pivots;
   if (vertex.z.dot(total.along_z) < 0.5) {
     const Eigen::VectorXd costs = vertex.multipliers(total.along_z);
-    ray.multipliers.setZero(set.inequalities());
+    ray.multipliers.setZero(view.inequalities());
     for (Eigen::Index k = 0; k < costs.size(); ++k) {
       const int inequality = vertex.basis[static_cast<std::size_t>(k)];
-      if (inequality < set.inequalities()) ray.multipliers[inequality] = std::max(0.0, costs[k]);
+      if (inequality < view.inequalities()) ray.multipliers[inequality] = std::max(0.0, costs[k]);
     }
     return ray;
   }
-  ray.x = vertex.x.head(set.inequalities());
+  ray.x = vertex.x.head(view.inequalities());
   ray.infeasibility = vertex.infeasibility();
   ray.noise =
       std::max(tolerance::kNoise, 10 * std::numeric_limits<double>::epsilon() / vertex.active.rcond());

@@ -21,11 +21,11 @@ struct InteriorPoint {
 };
 
 /// Throws LibraryError if the linear program fails.
-InteriorPoint find_interior_point(const FeasibleSet& set, const LpOptions& options);
+InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& options);
 
 /// The recession cone of a set, cut off: {z : slope · z ≥ 0, Σ slope · z ≤ 1}. Its inequalities are those of
 /// the set, then the cut.
-FeasibleSet truncated_recession_cone(const FeasibleSet& set);
+SlopeView truncated_recession_cone(const SlopeView& view);
 
 /// A direction in which a set is unbounded.
 struct RecessionRay {
@@ -40,6 +40,6 @@ struct RecessionRay {
 };
 
 /// Maximises Σx over the truncated recession cone. Throws LibraryError if the linear program fails.
-RecessionRay find_recession_ray(const FeasibleSet& set, const LpOptions& options);
+RecessionRay find_recession_ray(const SlopeView& view, const LpOptions& options);
 
 }  // namespace indet

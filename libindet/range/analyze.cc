@@ -47,7 +47,7 @@ bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, con
 /// How the search of a polytope is to be done.
 SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions& options) {
   int largest = 0;
-  for (const PolytopeBlock& block : polytope.blocks) largest = std::max(largest, block.set.dim());
+  for (const PolytopeBlock& block : polytope.blocks) largest = std::max(largest, block.view.dim());
   SearchOptions search;
   search.formulation = options.formulation.value_or(choose_formulation(largest));
   search.method = options.method;

@@ -53,7 +53,7 @@ TaskResult CanonicalStates::find(Maximiser& solver, std::int64_t objective) cons
     result.work.add(answer);
     if (answer.status != LpStatus::kOptimal) return result;
     basis = answer.basis;
-    face = optimal_part(compute_vertex(set_, basis), *functional, face.held);
+    face = optimal_part(compute_vertex(view_, basis), *functional, face.held);
     if (face.is_point) break;
   }
   result.status = LpStatus::kOptimal;
@@ -78,7 +78,7 @@ bool CanonicalStates::is_point(Maximiser& solver, const Basis& basis, const std:
     const LpAnswer answer = solver.maximise(*functional, basis, held);
     work.add(answer);
     if (answer.status != LpStatus::kOptimal) return false;
-    values.push_back(checker_.generic().along_z.dot(compute_vertex(set_, answer.basis).z));
+    values.push_back(checker_.generic().along_z.dot(compute_vertex(view_, answer.basis).z));
   }
   return std::abs(values[0] - values[1]) <= tolerance::kPointFace * std::max(1.0, std::abs(values[0]));
 }

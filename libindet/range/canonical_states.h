@@ -15,8 +15,8 @@ namespace indet {
 class CanonicalStates {
  public:
   /// All must outlive the object.
-  CanonicalStates(const FeasibleSet& set, const OptimalityChecker& checker, const ObjectiveTable& table)
-      : set_(set), checker_(checker), table_(table) {}
+  CanonicalStates(const SlopeView& view, const OptimalityChecker& checker, const ObjectiveTable& table)
+      : view_(view), checker_(checker), table_(table) {}
 
   /// True if the state is still to be found. Without a proof of optimality the optimal face is not known.
   static bool is_open(const ObjectiveProgress& known);
@@ -27,7 +27,7 @@ class CanonicalStates {
  private:
   bool is_point(Maximiser& solver, const Basis& basis, const std::vector<int>& held, SolverWork& work) const;
 
-  const FeasibleSet& set_;
+  const SlopeView& view_;
   const OptimalityChecker& checker_;
   const ObjectiveTable& table_;
 };

@@ -7,41 +7,12 @@
 #include <vector>
 
 #include "libindet/base/constants.h"
-#include "libindet/base/tolerances.h"
 #include "libindet/dense/lu.h"
+#include "libindet/range/equation_bounds.h"
+#include "libindet/range/rounding_bounds.h"
 
 namespace indet {
 namespace {
-
-constexpr double kU = 0x1p-53;      // unit roundoff
-constexpr double kTiny = 0x1p-600;  // above anything that underflow can lose
-/// Bounds are sums of few positive terms; this covers their own rounding.
-constexpr double kWiden = 1 + 0x1p-40;
-
-/// x·y with an error below `error` (Dot2).
-struct Dot {
-  double value = 0;
-  double error = 0;
-};
-Dot accurate_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
-  double sum = 0;
-  double correction = 0;
-  double magnitude = 0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double product = x[i] * y[i];
-    const double low = std::fma(x[i], y[i], -product);
-    const double next = sum + product;
-    const double part = next - sum;
-    correction += ((sum - (next - part)) + (product - part)) + low;
-    sum = next;
-    magnitude += std::abs(product);
-  }
-  const double n = static_cast<double>(x.size() + 1) * kU;
-  Dot dot;
-  dot.value = sum + correction;
-  dot.error = kWiden * (kU * std::abs(dot.value) + 4 * n * n * magnitude) + kTiny;
-  return dot;
-}
 
 /// What is known of a stored state: the exact solution nearest to it is within `shift` of it, entry by entry.
 struct StateBound {
@@ -53,11 +24,11 @@ struct StateBound {
 class Encloser {
  public:
   Encloser(const ForcePolytope& polytope, const Extrema& extrema)
-      : polytope_(polytope), problem_(polytope.problem), extrema_(extrema) {
-    first_.assign(problem_.contacts.size(), -1);
-    for (int k = problem_.unknowns() - 1; k >= 0; --k)
-      first_[static_cast<std::size_t>(problem_.edges[static_cast<std::size_t>(k)].contact.value())] = k;
-    find_right_inverse();
+      : polytope_(polytope),
+        problem_(polytope.problem),
+        extrema_(extrema),
+        first_(polytope.problem.first_unknowns()),
+        equations_(polytope) {
     bound_states();
   }
 
@@ -66,7 +37,7 @@ class Encloser {
     bound_strengths();
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
     for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
-      table->setConstant(count, 4, std::numeric_limits<double>::quiet_NaN());
+      table->setConstant(count, 4, kNaN);
     for (Eigen::Index i = 0; i < count; ++i) {
       for (int column = 0; column < 4; ++column) {
         if (extrema_.vertex(i, column) >= 0) enclose(i, column);
@@ -83,22 +54,13 @@ class Encloser {
     std::vector<std::pair<int, double>> on_unknowns, on_edges;
   };
 
-  bool is_stick(int unknown) const {
-    const int contact = problem_.edges[static_cast<std::size_t>(unknown)].contact.value();
-    return problem_.modes[static_cast<std::size_t>(contact)] == ContactMode::kStick;
-  }
-
-  double mu_of(const Edge& edge) const {
-    return problem_.contacts[static_cast<std::size_t>(edge.contact.value())].mu;
-  }
-
   Functional functional(Eigen::Index contact, bool tangential, double sign) const {
     Functional f;
     const int first = first_[static_cast<std::size_t>(contact)];
     if (first < 0) return f;
-    const int edges = is_stick(first) ? 2 : 1;
+    const int edges = problem_.is_stick(problem_.edge(first)) ? 2 : 1;
     for (int k = first; k < first + edges; ++k) {
-      const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
+      const Edge& edge = problem_.edge(k);
       const double coefficient = sign * (tangential ? edge.T : edge.R);
       f.on_edges.emplace_back(k, coefficient);
       if (edges == 1) f.on_unknowns.emplace_back(k, coefficient);
@@ -107,98 +69,24 @@ class Encloser {
     return f;
   }
 
-  void find_right_inverse() {
-    const int unknowns = problem_.unknowns();
-    rows_ = polytope_.null_space->independent_rows;
-    const auto rank = static_cast<Eigen::Index>(rows_.size());
-    std::vector<int> number(static_cast<std::size_t>(problem_.equations()), -1);
-    for (std::size_t k = 0; k < rows_.size(); ++k)
-      number[static_cast<std::size_t>(rows_[k])] = static_cast<int>(k);
-    const auto restrict_rows = [&](const Eigen::SparseMatrix<double>& matrix) {
-      std::vector<Eigen::Triplet<double>> entries;
-      for (int j = 0; j < matrix.outerSize(); ++j) {
-        for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, j); it; ++it) {
-          const int row = number[static_cast<std::size_t>(it.row())];
-          if (row >= 0) entries.emplace_back(row, j, it.value());
-        }
-      }
-      Eigen::SparseMatrix<double> kept(rank, unknowns);
-      kept.setFromTriplets(entries.begin(), entries.end());
-      return kept;
-    };
-    matrix_ = restrict_rows(problem_.matrix);
-    edge_matrix_ = restrict_rows(problem_.edge_matrix);
-    load_.resize(rank);
-    load_error_.resize(rank);
-    for (Eigen::Index k = 0; k < rank; ++k) {
-      const int row = rows_[static_cast<std::size_t>(k)];
-      const EquilibriumRow& equation = problem_.rows[static_cast<std::size_t>(row)];
-      load_[k] = problem_.load()[row];
-      load_error_[k] = 6 * kU * equation.load / equation.unit + kTiny;
-    }
-    if (rank == 0) {
-      right_inverse_.resize(unknowns, 0);
-      return;
-    }
-    right_inverse_ = right_inverse(*polytope_.null_space, problem_.matrix);
-    const Eigen::VectorXd sums = right_inverse_.cwiseAbs().rowwise().sum();
-    const double norm = kWiden * sums.maxCoeff();
-    const Eigen::MatrixXd product = matrix_ * right_inverse_;
-    const Eigen::VectorXd off = (product - Eigen::MatrixXd::Identity(rank, rank)).cwiseAbs().rowwise().sum();
-    // Rounding of the product, and of the entries of A where they are not stored doubles themselves.
-    const Eigen::VectorXd magnitude = matrix_.cwiseAbs() * sums;
-    Eigen::VectorXd entries = Eigen::VectorXd::Zero(rank);
-    for (int j = 0; j < matrix_.outerSize(); ++j) {
-      if (is_stick(j)) continue;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) entries[it.row()] += sums[j];
-    }
-    const double longest = static_cast<double>(unknowns + 2);
-    const double gamma = kWiden * (off + kU * (longest * magnitude + 8 * entries)).maxCoeff();
-    const bool all_rows = rank == unknowns - polytope_.dim;
-    gain_ = all_rows && gamma < 0.5 && std::isfinite(norm) ? kWiden * norm / (1 - gamma) : kInfinity;
-  }
-
-  /// η of a point u.
-  double shift_of(const Eigen::VectorXd& u) const {
-    if (matrix_.rows() == 0) return 0;
-    const Eigen::VectorXd residual = (matrix_ * u - load_).cwiseAbs();
-    const Eigen::VectorXd magnitude = matrix_.cwiseAbs() * u.cwiseAbs() + load_.cwiseAbs();
-    Eigen::VectorXd entries = Eigen::VectorXd::Zero(matrix_.rows());
-    for (int j = 0; j < matrix_.outerSize(); ++j) {
-      if (is_stick(j)) continue;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it)
-        entries[it.row()] += std::abs(u[j]);
-    }
-    const double terms = row_length_ + 2;
-    const double worst = (residual + kU * (terms * magnitude + 8 * entries) + load_error_).maxCoeff() + kTiny;
-    const double shift = kWiden * gain_ * worst;
-    return std::isnan(shift) ? kInfinity : shift;
-  }
-
   /// Visits each edge with its smallest slack once the point has been corrected.
   template <class Visit>
   void for_each_slack(const Eigen::VectorXd& u, double shift, Visit visit) const {
     for (int k = 0; k < problem_.unknowns(); ++k) {
-      const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
-      if (!is_stick(k)) {
+      const Edge& edge = problem_.edge(k);
+      if (!problem_.is_stick(edge)) {
         visit(k, u[k] - shift);
         continue;
       }
-      const double mu = mu_of(edge);
+      const double mu = problem_.mu(edge);
       const int R = edge.sign > 0 ? k : k - 1;
       const double slack = mu * u[R] + edge.sign * u[R + 1];
-      const double rounding = 4 * kU * (mu * std::abs(u[R]) + std::abs(u[R + 1]));
+      const double rounding = 4 * kRoundoff * (mu * std::abs(u[R]) + std::abs(u[R + 1]));
       visit(k, slack - kWiden * ((mu + 1) * shift + rounding) - kTiny);
     }
   }
 
   void bound_states() {
-    row_length_ = 0;
-    Eigen::VectorXd length = Eigen::VectorXd::Zero(matrix_.rows());
-    for (int j = 0; j < matrix_.outerSize(); ++j) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) length[it.row()] += 1;
-    }
-    if (length.size() > 0) row_length_ = length.maxCoeff();
     for (Eigen::Index row = 0; row < extrema_.states.rows(); ++row) {
       StateBound bound;
       bound.u =
@@ -206,7 +94,7 @@ class Encloser {
       states_.push_back(std::move(bound));
     }
     centre_.u = problem_.unknowns_of(problem_.state(polytope_.interior));
-    centre_.shift = shift_of(centre_.u);
+    centre_.shift = equations_.distance_to_solution(centre_.u);
     Eigen::VectorXd margin(problem_.unknowns());
     inside_ = !states_.empty() && std::isfinite(centre_.shift);
     for_each_slack(centre_.u, centre_.shift, [&](int k, double slack) {
@@ -214,7 +102,7 @@ class Encloser {
       inside_ = inside_ && slack > 0;
     });
     for (StateBound& bound : states_) {
-      bound.shift = shift_of(bound.u);
+      bound.shift = equations_.distance_to_solution(bound.u);
       bound.share = inside_ ? 0 : 1;
       for_each_slack(bound.u, bound.shift, [&](int k, double slack) {
         if (slack < 0 && inside_) bound.share = std::max(bound.share, kWiden * -slack / (margin[k] - slack));
@@ -230,9 +118,9 @@ class Encloser {
       const auto [entry, is_new] =
           numbers.emplace(std::make_pair(optimum.block, optimum.basis), static_cast<int>(factors_.size()));
       if (is_new) {
-        const FeasibleSet& set = polytope_.blocks[optimum.block].set;
+        const SlopeView& view = polytope_.blocks[optimum.block].view;
         factors_.push_back({optimum.block, optimum.basis,
-                            Eigen::PartialPivLU<Eigen::MatrixXd>(set.slope(optimum.basis, Eigen::all))});
+                            Eigen::PartialPivLU<Eigen::MatrixXd>(view.slope(optimum.basis, Eigen::all))});
       }
       basis_of_(optimum.contact, optimum.column) = entry->second;
     }
@@ -246,29 +134,29 @@ class Encloser {
 
   /// Adds Pᵀ times a multiple of the functional u_i.
   void add_unknown(int unknown, double weight, Eigen::VectorXd& y) const {
-    if (weight != 0) y += weight * right_inverse_.row(unknown).transpose();
+    if (weight != 0) y += weight * equations_.right_inverse().row(unknown).transpose();
   }
   /// … of the functional x_k.
   void add_edge(int k, double weight, Eigen::VectorXd& y) const {
-    if (!is_stick(k)) return add_unknown(k, weight, y);
-    const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
+    const Edge& edge = problem_.edge(k);
+    if (!problem_.is_stick(edge)) return add_unknown(k, weight, y);
     const int R = edge.sign > 0 ? k : k - 1;
     add_unknown(R, weight * 0.5 / edge.R, y);
-    add_unknown(R + 1, edge.sign * weight * 0.5 / (edge.R * mu_of(edge)), y);
+    add_unknown(R + 1, edge.sign * weight * 0.5 / (edge.R * problem_.mu(edge)), y);
   }
 
   /// y for max f, from the reduced costs at its basis.
   Eigen::VectorXd multipliers(const Functional& f, int number) const {
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix_.rows());
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
     for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
     if (number < 0) return y;
     const Factor& factor = factors_[static_cast<std::size_t>(number)];
     const PolytopeBlock& block = polytope_.blocks[factor.block];
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.set.dim());
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
     for (const auto& [edge, coefficient] : f.on_edges) {
       const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
       if (local != block.edges.end() && *local == edge)
-        gradient += coefficient * block.set.slope.row(local - block.edges.begin()).transpose();
+        gradient += coefficient * block.view.slope.row(local - block.edges.begin()).transpose();
     }
     const Eigen::VectorXd costs = factor.active.transpose().solve(gradient);
     for (Eigen::Index k = 0; k < costs.size(); ++k) {
@@ -282,29 +170,23 @@ class Encloser {
   template <class Visit>
   void for_each_excess(const Functional& f, const Eigen::VectorXd& y, Visit visit) const {
     std::size_t next = 0;
-    for (int k = 0; k < edge_matrix_.outerSize(); ++k) {
+    for (int k = 0; k < equations_.edge_matrix().outerSize(); ++k) {
       double own = 0;
       if (next < f.on_edges.size() && f.on_edges[next].first == k) own = f.on_edges[next++].second;
       double sum = own;
       double magnitude = std::abs(own);
       double plain = 0;
       int terms = 4;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(edge_matrix_, k); it; ++it) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(equations_.edge_matrix(), k); it; ++it) {
         const double product = it.value() * y[it.row()];
         sum -= product;
         magnitude += std::abs(product);
         plain += std::abs(y[it.row()]);
         ++terms;
       }
-      const double excess = sum + kWiden * kU * (terms * magnitude + 8 * plain);
+      const double excess = sum + kWiden * kRoundoff * (terms * magnitude + 8 * plain);
       if (!(excess <= 0)) visit(k, excess);
     }
-  }
-
-  /// Upper bound of y·b.
-  double load_bound(const Eigen::VectorXd& y) const {
-    const Dot dot = accurate_dot(y, load_);
-    return dot.value + kWiden * (dot.error + y.cwiseAbs().dot(load_error_));
   }
 
   /// The largest excess of any edge.
@@ -320,24 +202,24 @@ class Encloser {
   void bound_strengths() {
     strength_.setConstant(problem_.unknowns(), kInfinity);
     total_ = kInfinity;
-    if (polytope_.bounding_multipliers.size() == 0 || !std::isfinite(gain_)) return;
+    if (polytope_.bounding_multipliers.size() == 0 || !equations_.is_proven()) return;
     Functional sum;
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix_.rows());
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
     for (int k = 0; k < problem_.unknowns(); ++k) {
       sum.on_edges.emplace_back(k, 1);
       add_edge(k, 1 + polytope_.bounding_multipliers[k], y);
     }
     const double share = worst_excess(sum, y);
     if (!(share < 0.5)) return;
-    total_ = std::max(0.0, kWiden * load_bound(y) / (1 - kWiden * share));
+    total_ = std::max(0.0, kWiden * equations_.load_bound(y) / (1 - kWiden * share));
     strength_.setConstant(total_);
     for (int k = 0; k < problem_.unknowns(); ++k) {
-      const Edge& edge = problem_.edges[static_cast<std::size_t>(k)];
+      const Edge& edge = problem_.edge(k);
       const Eigen::Index i = edge.contact.value();
       if (extrema_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
       const Functional f = functional(i, false, 1);
       const Eigen::VectorXd y_of_maximum = multipliers(f, basis_of_(i, kMaxR));
-      const double R = load_bound(y_of_maximum) + worst_excess(f, y_of_maximum) * total_;
+      const double R = equations_.load_bound(y_of_maximum) + worst_excess(f, y_of_maximum) * total_;
       for (const auto& [own, coefficient] : f.on_edges)
         strength_[own] = std::min(total_, kWiden * kWiden * std::max(0.0, R) / coefficient);
     }
@@ -345,8 +227,8 @@ class Encloser {
 
   /// Upper bound of max f over F.
   double from_above(const Functional& f, const Eigen::VectorXd& y) const {
-    if (!std::isfinite(gain_) && matrix_.rows() > 0) return kInfinity;
-    double bound = load_bound(y);
+    if (!equations_.is_proven() && equations_.rank() > 0) return kInfinity;
+    double bound = equations_.load_bound(y);
     double excesses = 0;
     for_each_excess(f, y, [&](int k, double excess) {
       excesses += excess * strength_[k];
@@ -370,14 +252,15 @@ class Encloser {
     double reach = 0;
     for (const auto& [unknown, coefficient] : f.on_unknowns) reach += std::abs(coefficient);
     const double slack =
-        reach * (state.shift + centre_.shift) + 4 * kU * (std::abs(value) + std::abs(middle));
+        reach * (state.shift + centre_.shift) + 4 * kRoundoff * (std::abs(value) + std::abs(middle));
     return value - kWiden * (slack + state.share * std::abs(value - middle)) - kTiny;
   }
 
   /// How far the value can move when every normal turns by up to one radian times a small factor.
   double sensitivity_of(const Eigen::VectorXd& y, Eigen::Index state) const {
     Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem_.equations());
-    for (std::size_t k = 0; k < rows_.size(); ++k) motion[rows_[k]] = y[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < equations_.rows().size(); ++k)
+      motion[equations_.rows()[k]] = y[static_cast<Eigen::Index>(k)];
     double sum = 0;
     for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
       const ContactEnds& contact = problem_.contacts[i];
@@ -417,8 +300,9 @@ class Encloser {
     }
     const double unit = problem_.units.internal_in_scene();
     const auto widened = [&](double bound, double direction) {
-      return std::isinf(bound) ? bound
-                               : bound * unit + direction * (4 * kU * std::abs(bound) * unit + kTiny * unit);
+      return std::isinf(bound)
+                 ? bound
+                 : bound * unit + direction * (4 * kRoundoff * std::abs(bound) * unit + kTiny * unit);
     };
     const double low = sign > 0 ? inner : -outer;
     const double high = sign > 0 ? outer : -inner;
@@ -430,14 +314,8 @@ class Encloser {
   const EquilibriumProblem& problem_;
   const Extrema& extrema_;
   Enclosures enclosures_;
-  std::vector<int> first_;                   ///< of each contact its first unknown, −1 if it is open
-  std::vector<int> rows_;                    ///< independent equations
-  Eigen::SparseMatrix<double> matrix_;       ///< A on these rows
-  Eigen::SparseMatrix<double> edge_matrix_;  ///< the same on edges
-  Eigen::VectorXd load_, load_error_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> right_inverse_;  ///< P
-  double gain_ = 1;  ///< ‖P‖∞ / (1 − γ), +inf if γ is not below 1
-  double row_length_ = 0;
+  std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
+  EquationBounds equations_;
   std::vector<StateBound> states_;
   StateBound centre_;
   bool inside_ = false;  ///< the centre is proven to be strictly inside
@@ -453,8 +331,7 @@ Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema)
   if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema).run();
   Enclosures none;
   for (auto* table : {&none.lower, &none.upper, &none.sensitivity})
-    table->setConstant(static_cast<Eigen::Index>(polytope.problem.contacts.size()), 4,
-                       std::numeric_limits<double>::quiet_NaN());
+    table->setConstant(static_cast<Eigen::Index>(polytope.problem.contacts.size()), 4, kNaN);
   none.proven = !polytope.doubtful;
   return none;
 }

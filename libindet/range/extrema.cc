@@ -44,7 +44,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
     for (const bool is_tangential : {false, true}) {
       Component& component = is_tangential ? pair.second : pair.first;
       // A component may be determined although the other one of its contact is not.
-      const Objective objective = make_objective(block.set, component.on_edges);
+      const Objective objective = make_objective(block.view, component.on_edges);
       if (objective.along_z.norm() <= tolerance::kConstantComponent) continue;
       result.components.push_back(std::move(component));
       result.names.emplace_back(ContactId(contact), is_tangential);
@@ -116,8 +116,8 @@ class ExtremaFinder {
 
   /// Switches off what is unbounded: whatever grows along some direction of the block's recession cone.
   void exclude_unbounded(std::size_t number, const Eigen::VectorXd& weight, BlockComponents& block) {
-    const FeasibleSet& set = polytope_.blocks[number].set;
-    const FeasibleSet cone = truncated_recession_cone(set);
+    const SlopeView& view = polytope_.blocks[number].view;
+    const SlopeView cone = truncated_recession_cone(view);
     SearchOptions options = options_;
     options.formulation = Formulation::kDual;
     options.canonical_states = options.solver_states = false;
@@ -143,7 +143,7 @@ class ExtremaFinder {
         const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
         const bool is_ray = end.infeasibility() <= tolerance::kRayResidual;
         extrema_.claim(row, column) = is_ray ? Outcome::kUnbounded : Outcome::kImprecise;
-        extrema_.ray(row, column) = states_.add_ray(number, end.x.head(set.inequalities()));
+        extrema_.ray(row, column) = states_.add_ray(number, end.x.head(view.inequalities()));
         extrema_.ray_residual(row, column) = end.infeasibility();
         extrema_.dual_residual(row, column) = extremum.dual_residual;
       };
@@ -163,7 +163,7 @@ class ExtremaFinder {
     const Basis start = options_.method == Method::kPivotingPaper
                             ? first_extremal_point(simulated_, polytope_, block, options_.lp, extrema_.paper)
                             : block.lightest;
-    const SearchResult found = search_extrema(block.set, wanted.components, weight, start, options_within());
+    const SearchResult found = search_extrema(block.view, wanted.components, weight, start, options_within());
     extrema_.paper += found.paper;
     extrema_.state_seconds += found.state_seconds;
     extrema_.solves += found.solves;

@@ -52,9 +52,9 @@ void find_values(const OptimalityChecker& checker, const Basis& start, Objective
       [](ObjectiveProgress& known) { known.failed = !known.optimal && !known.unbounded; });
 }
 
-void find_states(const FeasibleSet& set, const OptimalityChecker& checker, const ObjectiveTable& table,
+void find_states(const SlopeView& view, const OptimalityChecker& checker, const ObjectiveTable& table,
                  SearchRounds& rounds) {
-  const CanonicalStates states(set, checker, table);
+  const CanonicalStates states(view, checker, table);
   rounds.run(
       CanonicalStates::is_open,
       [&](Maximiser& solver, std::int64_t objective) { return states.find(solver, objective); },
@@ -111,18 +111,18 @@ SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& t
 
 }  // namespace
 
-SearchResult search_extrema(const FeasibleSet& set, const std::vector<Component>& components,
+SearchResult search_extrema(const SlopeView& view, const std::vector<Component>& components,
                             const Eigen::VectorXd& weight, const Basis& start, const SearchOptions& options) {
-  const OptimalityChecker checker(set, components, weight, options.canonical_states);
+  const OptimalityChecker checker(view, components, weight, options.canonical_states);
   ObjectiveTable table(components, options.canonical_states);
-  SearchRounds rounds(set, options, table);
+  SearchRounds rounds(view, options, table);
   if (options.method == Method::kPivotingPaper) {
-    walk_to_values(set, checker, start, table, rounds);
+    walk_to_values(view, checker, start, table, rounds);
   } else {
     find_values(checker, start, table, rounds);
   }
   const auto middle = std::chrono::steady_clock::now();
-  if (options.canonical_states) find_states(set, checker, table, rounds);
+  if (options.canonical_states) find_states(view, checker, table, rounds);
   SearchResult found = result_of(checker, table, options.solver_states);
   found.state_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return found;

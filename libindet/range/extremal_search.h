@@ -39,7 +39,8 @@ struct SearchResult {
   double state_seconds = 0;  ///< of the time, what the canonical states took
 };
 
-/// Minima and maxima of many functionals over one bounded, full-dimensional FeasibleSet.
+/// Minima and maxima of many functionals over one bounded, full-dimensional FeasibleSet, of which `view` is
+/// the view.
 ///
 /// kLp and kPivotingTableau: each objective starts from the known vertex with the best value of its
 /// objective; a basis once feasible stays feasible. Every vertex reached is then tried on all objectives that
@@ -55,7 +56,7 @@ struct SearchResult {
 ///
 /// Preconditions: the set is full-dimensional; `start` is a vertex; weight > 0. Functionals that are
 /// unbounded over the set end as kUnbounded.
-SearchResult search_extrema(const FeasibleSet& set, const std::vector<Component>& components,
+SearchResult search_extrema(const SlopeView& view, const std::vector<Component>& components,
                             const Eigen::VectorXd& weight, const Basis& start, const SearchOptions& options);
 
 }  // namespace indet

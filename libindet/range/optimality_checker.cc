@@ -17,23 +17,23 @@ bool is_lightest_along(const CheckedVertex& checked, Eigen::Index k) {
 
 }  // namespace
 
-OptimalityChecker::OptimalityChecker(const FeasibleSet& set, const std::vector<Component>& components,
+OptimalityChecker::OptimalityChecker(const SlopeView& view, const std::vector<Component>& components,
                                      const Eigen::VectorXd& weight, bool canonical_states)
-    : set_(set), components_(components), weight_(weight), canonical_states_(canonical_states) {
-  rows_.resize(static_cast<Eigen::Index>(components.size()), set.dim());
+    : view_(view), components_(components), weight_(weight), canonical_states_(canonical_states) {
+  rows_.resize(static_cast<Eigen::Index>(components.size()), view.dim());
   for (std::size_t c = 0; c < components.size(); ++c) {
-    objectives_.push_back(make_objective(set, components[c].on_edges));
+    objectives_.push_back(make_objective(view, components[c].on_edges));
     rows_.row(static_cast<Eigen::Index>(c)) = objectives_.back().along_z.transpose();
   }
   std::vector<std::pair<int, double>> light;
   std::vector<std::pair<int, double>> generic;
   Random random(1);  // fixed weights in [1, 2), so that no two states of a face tie
-  for (int k = 0; k < set.inequalities(); ++k) {
+  for (int k = 0; k < view.inequalities(); ++k) {
     light.emplace_back(k, -weight[k]);
     generic.emplace_back(k, -random.uniform(1, 2));
   }
-  lightness_ = make_objective(set, light);
-  generic_ = make_objective(set, generic);
+  lightness_ = make_objective(view, light);
+  generic_ = make_objective(view, generic);
 }
 
 Objective OptimalityChecker::signed_objective(std::int64_t number) const {
@@ -53,16 +53,16 @@ double OptimalityChecker::value_of(std::int64_t component, const Eigen::VectorXd
 
 CheckedVertex OptimalityChecker::recompute(const Basis& basis) const {
   CheckedVertex checked;
-  checked.vertex = compute_vertex(set_, basis);
+  checked.vertex = compute_vertex(view_, basis);
   checked.values.resize(rows_.rows());
   for (Eigen::Index c = 0; c < rows_.rows(); ++c) checked.values[c] = value_of(c, checked.vertex.x);
   checked.weight = weight_.dot(checked.vertex.x);
   if (canonical_states_) {
-    checked.state_costs.resize(2, set_.dim());
+    checked.state_costs.resize(2, view_.dim());
     checked.state_costs.row(0) = checked.vertex.multipliers(lightness_.along_z).transpose();
     checked.state_costs.row(1) = checked.vertex.multipliers(generic_.along_z).transpose();
   }
-  checked.has_length.resize(static_cast<std::size_t>(set_.dim()));
+  checked.has_length.resize(static_cast<std::size_t>(view_.dim()));
   return checked;
 }
 
@@ -115,7 +115,7 @@ ObjectiveVerdict OptimalityChecker::judge_one(std::int64_t objective, CheckedVer
 }
 
 bool OptimalityChecker::has_free_polytope_edge(CheckedVertex& checked, const std::vector<int>& held) const {
-  for (int k = 0; k < set_.dim(); ++k) {
+  for (int k = 0; k < view_.dim(); ++k) {
     const int inequality = checked.vertex.basis[static_cast<std::size_t>(k)];
     if (std::binary_search(held.begin(), held.end(), inequality)) continue;
     if (polytope_edge_has_length(checked, k) && keeps_to(checked, k, held)) return true;
@@ -130,13 +130,13 @@ bool OptimalityChecker::keeps_to(const CheckedVertex& checked, int k, const std:
   std::vector<int> others;
   std::set_difference(held.begin(), held.end(), basis.begin(), basis.end(), std::back_inserter(others));
   if (others.empty()) return true;
-  const Eigen::VectorXd rates = set_.slope(others, Eigen::all) * checked.vertex.edge_direction(k);
+  const Eigen::VectorXd rates = view_.slope(others, Eigen::all) * checked.vertex.edge_direction(k);
   return rates.lpNorm<Eigen::Infinity>() <= tolerance::kHeldRate;
 }
 
 bool OptimalityChecker::polytope_edge_has_length(CheckedVertex& checked, int k) const {
   auto& known = checked.has_length[static_cast<std::size_t>(k)];
-  if (!known) known = polytope_edge_length(set_, checked.vertex, k) > tolerance::kPolytopeEdge;
+  if (!known) known = polytope_edge_length(view_, checked.vertex, k) > tolerance::kPolytopeEdge;
   return *known;
 }
 

@@ -41,7 +41,7 @@ struct ObjectiveVerdict {
 class OptimalityChecker {
  public:
   /// `set`, `components` and `weight` must outlive the checker.
-  OptimalityChecker(const FeasibleSet& set, const std::vector<Component>& components,
+  OptimalityChecker(const SlopeView& view, const std::vector<Component>& components,
                     const Eigen::VectorXd& weight, bool canonical_states);
 
   std::int64_t objectives() const { return 2 * rows_.rows(); }
@@ -69,7 +69,7 @@ class OptimalityChecker {
   bool polytope_edge_has_length(CheckedVertex& checked, int k) const;
   bool keeps_to(const CheckedVertex& checked, int k, const std::vector<int>& held) const;
 
-  const FeasibleSet& set_;
+  const SlopeView& view_;
   const std::vector<Component>& components_;
   const Eigen::VectorXd& weight_;
   bool canonical_states_;

@@ -38,9 +38,9 @@ TaskResult walk_to_value(const NeighbourSearch& search, const OptimalityChecker&
 
 }  // namespace
 
-void walk_to_values(const FeasibleSet& set, const OptimalityChecker& checker, const Basis& start,
+void walk_to_values(const SlopeView& view, const OptimalityChecker& checker, const Basis& start,
                     ObjectiveTable& table, SearchRounds& rounds) {
-  const NeighbourSearch search(set, tolerance::kActive);
+  const NeighbourSearch search(view, tolerance::kActive);
   const auto close = [](ObjectiveProgress& known) { known.failed = !known.optimal; };
   for (const bool is_maximum : {false, true}) {
     std::vector<std::int64_t> objectives;

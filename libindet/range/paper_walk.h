@@ -10,7 +10,7 @@ namespace indet {
 /// The values of all wanted objectives as in Sec. II G of the paper: each is walked to by itself
 /// (pivoting/neighbour_search.h), a minimum from `start`, the maximum of the same component from that
 /// minimum, and nothing is learned from other objectives. Throws Interrupted.
-void walk_to_values(const FeasibleSet& set, const OptimalityChecker& checker, const Basis& start,
+void walk_to_values(const SlopeView& view, const OptimalityChecker& checker, const Basis& start,
                     ObjectiveTable& table, SearchRounds& rounds);
 
 }  // namespace indet

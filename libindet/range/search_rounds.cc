@@ -15,8 +15,8 @@ constexpr std::size_t kIndependent = 16;
 
 }  // namespace
 
-SearchRounds::SearchRounds(const FeasibleSet& set, const SearchOptions& options, ObjectiveTable& table)
-    : set_(set),
+SearchRounds::SearchRounds(const SlopeView& view, const SearchOptions& options, ObjectiveTable& table)
+    : view_(view),
       options_(options),
       table_(table),
       team_(options.threads, [this](int worker) { leave(worker); }) {}
@@ -62,9 +62,9 @@ void SearchRounds::leave(int worker) {
 
 Maximiser& SearchRounds::solver_of(SolverSlot& slot) const {
   if (!slot.solver && options_.method == Method::kPivotingTableau) {
-    slot.solver = std::make_unique<TableauSolver>(set_, options_.pivot_rule, options_.lp);
+    slot.solver = std::make_unique<TableauSolver>(view_, options_.pivot_rule, options_.lp);
   } else if (!slot.solver) {
-    slot.solver = std::make_unique<LpSolver>(set_, options_.formulation, options_.lp);
+    slot.solver = std::make_unique<LpSolver>(view_, options_.formulation, options_.lp);
   }
   return *slot.solver;
 }

@@ -29,7 +29,7 @@ class SearchRounds {
   using Close = std::function<void(ObjectiveProgress&)>;
 
   /// All must outlive the rounds.
-  SearchRounds(const FeasibleSet& set, const SearchOptions& options, ObjectiveTable& table);
+  SearchRounds(const SlopeView& view, const SearchOptions& options, ObjectiveTable& table);
 
   /// Runs `task` on open objectives until none is left; `close`, called for each after its round, must make
   /// it no longer open. Throws Interrupted.
@@ -54,7 +54,7 @@ class SearchRounds {
   std::vector<std::int64_t> choose_members(const IsOpen& is_open);
   void report() const;
 
-  const FeasibleSet& set_;
+  const SlopeView& view_;
   const SearchOptions& options_;
   ObjectiveTable& table_;
   std::array<SolverSlot, kRound> slots_;

@@ -12,7 +12,7 @@
 namespace indet {
 
 double ConvexBody::slack(const Eigen::Ref<const Eigen::VectorXd>& z) const {
-  return (set.offset + set.slope * z).minCoeff();
+  return (view.offset + view.slope * z).minCoeff();
 }
 
 InternalStates ConvexBody::states(const Eigen::Ref<const Eigen::MatrixXd>& z) const {
@@ -21,12 +21,12 @@ InternalStates ConvexBody::states(const Eigen::Ref<const Eigen::MatrixXd>& z) co
   return InternalStates(std::move(result));
 }
 
-ConvexBody make_body(const FeasibleSet& set) {
-  const Eigen::Index n = set.dim();
+ConvexBody make_body(const SlopeView& view) {
+  const Eigen::Index n = view.dim();
   ConvexBody body;
-  body.set.slope = set.slope;
-  body.set.offset = set.offset;
-  body.blocks = {{0, set.inequalities(), 0, n}};
+  body.view.slope = view.slope;
+  body.view.offset = view.offset;
+  body.blocks = {{0, view.inequalities(), 0, n}};
   body.origin = Eigen::VectorXd::Zero(n);
   body.frame = Eigen::MatrixXd::Identity(n, n);
   return body;
@@ -34,30 +34,31 @@ ConvexBody make_body(const FeasibleSet& set) {
 
 ConvexBody make_body(const ForcePolytope& polytope) {
   Eigen::Index rows = 0;
-  for (const PolytopeBlock& block : polytope.blocks) rows += block.set.inequalities();
+  for (const PolytopeBlock& block : polytope.blocks) rows += block.view.inequalities();
   const Eigen::SparseMatrix<double>& to_forces = polytope.problem.edge_forces;
   ConvexBody body;
-  body.set.slope = Eigen::MatrixXd::Zero(rows, polytope.dim);
-  body.set.offset.resize(rows);
+  body.view.slope = Eigen::MatrixXd::Zero(rows, polytope.dim);
+  body.view.offset.resize(rows);
   body.frame = Eigen::MatrixXd::Zero(to_forces.rows(), polytope.dim);
   Eigen::VectorXd x = polytope.lightest;
   BodyBlock place;
   for (const PolytopeBlock& block : polytope.blocks) {
-    place.rows = block.set.inequalities();
-    place.columns = block.set.dim();
+    place.rows = block.view.inequalities();
+    place.columns = block.view.dim();
     Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(to_forces.cols(), place.columns);
     for (std::size_t k = 0; k < block.edges.size(); ++k) {
-      spread.row(block.edges[k]) = block.set.slope.row(static_cast<Eigen::Index>(k));
-      x[block.edges[k]] = block.set.offset[static_cast<Eigen::Index>(k)];
+      spread.row(block.edges[k]) = block.view.slope.row(static_cast<Eigen::Index>(k));
+      x[block.edges[k]] = block.view.offset[static_cast<Eigen::Index>(k)];
     }
     // F = … + J ζ = … + Q (U ζ): z = U ζ are orthonormal coordinates.
     const Eigen::MatrixXd jacobian = to_forces * spread;
     const ThinQr qr = factorise_qr(jacobian);
     body.frame.middleCols(place.first_column, place.columns) = qr.Q;
     const Eigen::MatrixXd turned =
-        qr.R.triangularView<Eigen::Upper>().transpose().solve(block.set.slope.transpose());
-    body.set.slope.block(place.first_row, place.first_column, place.rows, place.columns) = turned.transpose();
-    body.set.offset.segment(place.first_row, place.rows) = block.set.offset;
+        qr.R.triangularView<Eigen::Upper>().transpose().solve(block.view.slope.transpose());
+    body.view.slope.block(place.first_row, place.first_column, place.rows, place.columns) =
+        turned.transpose();
+    body.view.offset.segment(place.first_row, place.rows) = block.view.offset;
     body.blocks.push_back(place);
     place.first_row += place.rows;
     place.first_column += place.columns;
@@ -70,18 +71,18 @@ ConvexBody make_body(const ForcePolytope& polytope) {
 InscribedBall find_inscribed_ball(const ConvexBody& body) {
   InscribedBall ball{Eigen::VectorXd::Zero(body.dim()), std::numeric_limits<double>::infinity()};
   for (const BodyBlock& block : body.blocks) {
-    FeasibleSet set;
-    set.slope = body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
-    const Eigen::VectorXd lengths = set.slope.rowwise().norm();
-    set.slope = lengths.cwiseInverse().asDiagonal() * set.slope;
+    SlopeView view;
+    view.slope = body.view.slope.block(block.first_row, block.first_column, block.rows, block.columns);
+    const Eigen::VectorXd lengths = view.slope.rowwise().norm();
+    view.slope = lengths.cwiseInverse().asDiagonal() * view.slope;
     const Eigen::VectorXd distances =
-        body.set.offset.segment(block.first_row, block.rows).cwiseQuotient(lengths);
+        body.view.offset.segment(block.first_row, block.rows).cwiseQuotient(lengths);
     // The linear program stops at slack 1: larger bodies are made smaller for it.
     InteriorPoint point;
     double unit = 1;
     for (;; unit *= 16) {
-      set.offset = distances / unit;
-      point = find_interior_point(set, {});
+      view.offset = distances / unit;
+      point = find_interior_point(view, {});
       if (point.slack < 0.99) break;
       if (unit > 1e12) throw LibraryError("no largest ball in a body that should be bounded");
     }
@@ -97,8 +98,8 @@ AnalyticCenter find_analytic_center(const ConvexBody& body, const Eigen::VectorX
   AnalyticCenter center{interior, Eigen::MatrixXd::Zero(body.dim(), body.dim())};
   for (const BodyBlock& block : body.blocks) {
     const Eigen::MatrixXd slope =
-        body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
-    const Eigen::VectorXd offset = body.set.offset.segment(block.first_row, block.rows);
+        body.view.slope.block(block.first_row, block.first_column, block.rows, block.columns);
+    const Eigen::VectorXd offset = body.view.offset.segment(block.first_row, block.rows);
     auto z = center.z.segment(block.first_column, block.columns);
     // Columns in reverse order, so that the triangular factor of the QR decomposition is a lower one.
     Eigen::MatrixXd scaled;

@@ -23,7 +23,7 @@ struct BodyBlock {
 /// so that the uniform distribution of z is the flat measure on the affine hull of the polytope F [19], and
 /// n = dim F. Blocks of F are blocks here; forces that are determined are constant.
 struct ConvexBody {
-  FeasibleSet set;  ///< explicit description alone
+  SlopeView view;
   std::vector<BodyBlock> blocks;
   Eigen::VectorXd origin;  ///< 2M
   Eigen::MatrixXd frame;   ///< 2M × n
@@ -31,13 +31,13 @@ struct ConvexBody {
 
   /// The contact states at z, n × K: 2M × K.
   InternalStates states(const Eigen::Ref<const Eigen::MatrixXd>& z) const;
-  int dim() const { return set.dim(); }
+  int dim() const { return view.dim(); }
   /// How far z is inside: min (offset + slope z), recomputed from z.
   double slack(const Eigen::Ref<const Eigen::VectorXd>& z) const;
 };
 
 /// The body of a set given directly: orthonormal coordinates, one block, F = z, all units of force the same.
-ConvexBody make_body(const FeasibleSet& set);
+ConvexBody make_body(const SlopeView& view);
 
 /// The body of the contact states of a packing. Precondition: status is kBounded.
 ConvexBody make_body(const ForcePolytope& polytope);

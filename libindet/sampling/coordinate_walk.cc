@@ -46,13 +46,13 @@ void move(double* s, const double* a, double step, Eigen::Index count) {
 }  // namespace
 
 RoundedBody::RoundedBody(const ConvexBody& body, const Rounding& rounding)
-    : slope(Eigen::MatrixXd::Zero(body.set.slope.rows(), body.set.slope.cols())),
-      offset(body.set.offset + body.set.slope * rounding.center) {
+    : slope(Eigen::MatrixXd::Zero(body.view.slope.rows(), body.view.slope.cols())),
+      offset(body.view.offset + body.view.slope * rounding.center) {
   for (const BodyBlock& block : body.blocks) {
     const auto square =
         rounding.transform.block(block.first_column, block.first_column, block.columns, block.columns);
     slope.block(block.first_row, block.first_column, block.rows, block.columns) =
-        body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns) * square;
+        body.view.slope.block(block.first_row, block.first_column, block.rows, block.columns) * square;
     block_of_column.insert(block_of_column.end(), static_cast<std::size_t>(block.columns), block);
   }
 }

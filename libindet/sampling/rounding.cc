@@ -104,7 +104,7 @@ Eigen::MatrixXd dispersed_points(const ConvexBody& body, const Eigen::VectorXd& 
     Random random = random_of(seed, ChainKind::kStart, c);
     Eigen::VectorXd guide(body.dim());
     for (double& component : guide) component = random.normal();
-    const Vertex vertex = compute_vertex(body.set, purify_to_vertex(body.set, interior, guide));
+    const Vertex vertex = compute_vertex(body.view, purify_to_vertex(body.view, interior, guide));
     points.col(c) = interior + kTowardsVertex * (vertex.z - interior);
     // Rounding can put a vertex outside of a very thin body: then the chain starts nearer.
     for (int halvings = 0; !(body.slack(points.col(c)) > 0) && halvings < 60; ++halvings)

@@ -24,12 +24,12 @@ class Support {
   Support(const ConvexBody& body, const Eigen::VectorXd& interior, const LpOptions& options)
       : body_(body), interior_(interior) {
     for (const BodyBlock& block : body.blocks) {
-      FeasibleSet& set = sets_.emplace_back();
-      set.slope = body.set.slope.block(block.first_row, block.first_column, block.rows, block.columns);
-      set.offset = body.set.offset.segment(block.first_row, block.rows);
+      SlopeView& view = sets_.emplace_back();
+      view.slope = body.view.slope.block(block.first_row, block.first_column, block.rows, block.columns);
+      view.offset = body.view.offset.segment(block.first_row, block.rows);
     }
-    for (const FeasibleSet& set : sets_)
-      solvers_.push_back(std::make_unique<LpSolver>(set, Formulation::kDual, options));
+    for (const SlopeView& view : sets_)
+      solvers_.push_back(std::make_unique<LpSolver>(view, Formulation::kDual, options));
   }
 
   /// None if a linear program could not be solved.
@@ -52,7 +52,7 @@ class Support {
  private:
   const ConvexBody& body_;
   Eigen::VectorXd interior_;
-  std::vector<FeasibleSet> sets_;
+  std::vector<SlopeView> sets_;
   std::vector<std::unique_ptr<LpSolver>> solvers_;
 };
 

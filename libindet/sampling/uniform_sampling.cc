@@ -116,7 +116,7 @@ class Sampler {
     result_.sweeps += samples * result_.interval;
     result_.worst_slack = std::numeric_limits<double>::infinity();
     for (const Chain& chain : chains_) result_.worst_slack = std::min(result_.worst_slack, chain.worst_slack);
-    const double scale = std::max(1.0, body_.set.offset.lpNorm<Eigen::Infinity>());
+    const double scale = std::max(1.0, body_.view.offset.lpNorm<Eigen::Infinity>());
     if (!(result_.worst_slack >= -tolerance::kSampleResidual * scale)) {
       throw LibraryError(fmt::format("a sample is outside of the polytope by {:.1e}", -result_.worst_slack));
     }

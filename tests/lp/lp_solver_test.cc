@@ -26,7 +26,7 @@ using test::random_objective;
 using test::value_of;
 
 test::MakeMaximiser maker(Formulation formulation) {
-  return [formulation](const FeasibleSet& set) { return std::make_unique<LpSolver>(set, formulation); };
+  return [formulation](const SlopeView& view) { return std::make_unique<LpSolver>(view, formulation); };
 }
 
 class Formulations : public testing::TestWithParam<Formulation> {};
@@ -35,26 +35,26 @@ TEST_P(Formulations, FindTheBestCornerWarmAndCold) {
   Random random(41);
   for (int repeat = 0; repeat < 80; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(5));
-    const FeasibleSet set =
+    const SlopeView view =
         test::random_polytope(d, static_cast<int>(random.below(7)), repeat % 2 == 1, random);
-    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
-    LpSolver solver(set, GetParam());
+    const oracle::Corners corners = oracle::enumerate_corners(view.slope, view.offset);
+    LpSolver solver(view, GetParam());
     Basis last;
     for (int goal = 0; goal < 4; ++goal) {
       SCOPED_TRACE(std::to_string(repeat) + ", " + std::to_string(goal));
-      const Objective objective = random_objective(set, random);
-      const double best = best_corner(set, corners, objective, {});
+      const Objective objective = random_objective(view, random);
+      const double best = best_corner(view, corners, objective, {});
       const LpAnswer cold = solver.maximise(objective, {});
       ASSERT_EQ(cold.status, LpStatus::kOptimal);
-      EXPECT_NEAR(value_of(set, objective, cold), best, 1e-9);
-      const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+      EXPECT_NEAR(value_of(view, objective, cold), best, 1e-9);
+      const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
       for (const Basis& from : {start, last, cold.basis}) {
         if (from.empty()) continue;
         const LpAnswer warm = solver.maximise(objective, from);
         ASSERT_EQ(warm.status, LpStatus::kOptimal);
         EXPECT_EQ(warm.attempts, 1);
         EXPECT_TRUE(std::is_sorted(warm.basis.begin(), warm.basis.end()));
-        EXPECT_NEAR(value_of(set, objective, warm), best, 1e-9);
+        EXPECT_NEAR(value_of(view, objective, warm), best, 1e-9);
       }
       EXPECT_EQ(solver.maximise(objective, cold.basis).pivots, 0) << "an optimal start needs no pivot";
       last = cold.basis;
@@ -66,17 +66,17 @@ TEST_P(Formulations, GoOnFromTheLastVertex) {
   Random random(45);
   for (int repeat = 0; repeat < 40; ++repeat) {
     const int d = 2 + static_cast<int>(random.below(4));
-    const FeasibleSet set = test::random_polytope(d, 6, repeat % 2 == 1, random);
-    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
-    LpSolver solver(set, GetParam());
-    Basis last = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const SlopeView view = test::random_polytope(d, 6, repeat % 2 == 1, random);
+    const oracle::Corners corners = oracle::enumerate_corners(view.slope, view.offset);
+    LpSolver solver(view, GetParam());
+    Basis last = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (int goal = 0; goal < 20; ++goal) {
-      const Objective objective = random_objective(set, random);
+      const Objective objective = random_objective(view, random);
       const std::vector<int> held = goal % 3 == 2 ? std::vector<int>{last.front()} : std::vector<int>{};
       const LpAnswer answer = solver.maximise(objective, last, held);
       ASSERT_EQ(answer.status, LpStatus::kOptimal);
       EXPECT_EQ(answer.attempts, 1);
-      EXPECT_NEAR(value_of(set, objective, answer), best_corner(set, corners, objective, held), 1e-9);
+      EXPECT_NEAR(value_of(view, objective, answer), best_corner(view, corners, objective, held), 1e-9);
       last = answer.basis;
     }
   }
@@ -84,12 +84,12 @@ TEST_P(Formulations, GoOnFromTheLastVertex) {
 
 TEST_P(Formulations, AnotherStartForgetsWhatWasAskedBefore) {
   Random random(42);
-  const FeasibleSet set = test::random_polytope(5, 12, true, random);
-  const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
-  LpSolver used(set, GetParam());
+  const SlopeView view = test::random_polytope(5, 12, true, random);
+  const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5));
+  LpSolver used(view, GetParam());
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const Objective objective = random_objective(set, random);
-    LpSolver fresh(set, GetParam());
+    const Objective objective = random_objective(view, random);
+    LpSolver fresh(view, GetParam());
     const LpAnswer first = used.maximise(objective, start);
     const LpAnswer second = fresh.maximise(objective, start);
     EXPECT_EQ(first.basis, second.basis);
@@ -107,33 +107,33 @@ TEST_P(Formulations, TellUnboundedFromOptimal) {
 }
 
 TEST_P(Formulations, OneWordProvesAnOptimumAndTwoThatThereIsNone) {
-  FeasibleSet set;  // z0 ≥ 0, z1 ≥ 0, z0 − z1 ≥ −1
-  set.slope.resize(3, 2);
-  set.slope << 1, 0, 0, 1, 1, -1;
-  set.offset = Eigen::Vector3d(0, 0, 1);
-  test::describe_implicitly(set);
-  LpSolver solver(set, GetParam());
-  const Objective grows = make_objective(set, {{0, 1.0}});
-  const Objective limited = make_objective(set, {{0, -1.0}, {1, -1.0}});
+  SlopeView view;  // z0 ≥ 0, z1 ≥ 0, z0 − z1 ≥ −1
+  view.slope.resize(3, 2);
+  view.slope << 1, 0, 0, 1, 1, -1;
+  view.offset = Eigen::Vector3d(0, 0, 1);
+  test::make_set(view);
+  LpSolver solver(view, GetParam());
+  const Objective grows = make_objective(view, {{0, 1.0}});
+  const Objective limited = make_objective(view, {{0, -1.0}, {1, -1.0}});
   EXPECT_EQ(solver.maximise(limited, {0, 1}).solves, 1);
   EXPECT_EQ(solver.maximise(grows, {0, 1}).solves, 2);
   EXPECT_EQ(solver.maximise(limited, {0, 1}).solves, 1) << "the first formulation is asked first again";
   if (GetParam() == Formulation::kEdge) return;
-  set.equations = {};  // leaves two formulations
-  LpSolver without(set, GetParam());
+  view.set.reset();  // leaves two formulations
+  LpSolver without(view, GetParam());
   const LpAnswer answer = without.maximise(grows, {0, 1});
   EXPECT_EQ(answer.status, LpStatus::kUnbounded);
   EXPECT_EQ(answer.solves, 2);
 }
 
 TEST_P(Formulations, TellInfeasibleSets) {
-  FeasibleSet set;  // z0 ≥ 1, z0 ≤ 0, z1 ∈ [0, 1]
-  set.slope.resize(4, 2);
-  set.slope << 1, 0, -1, 0, 0, 1, 0, -1;
-  set.offset = Eigen::Vector4d(-1, 0, 0, 1);
-  test::describe_implicitly(set);
-  LpSolver solver(set, GetParam());
-  const LpAnswer answer = solver.maximise(make_objective(set, {{2, 1.0}}), {});
+  SlopeView view;  // z0 ≥ 1, z0 ≤ 0, z1 ∈ [0, 1]
+  view.slope.resize(4, 2);
+  view.slope << 1, 0, -1, 0, 0, 1, 0, -1;
+  view.offset = Eigen::Vector4d(-1, 0, 0, 1);
+  test::make_set(view);
+  LpSolver solver(view, GetParam());
+  const LpAnswer answer = solver.maximise(make_objective(view, {{2, 1.0}}), {});
   EXPECT_EQ(answer.status, LpStatus::kInfeasible);
   EXPECT_TRUE(answer.basis.empty());
 }

@@ -16,16 +16,16 @@ TEST(Walk, EndsAtAFeasibleVertexAndNeverLosesTheGuide) {
   Random random(51);
   for (int repeat = 0; repeat < 100; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(6));
-    const FeasibleSet set =
+    const SlopeView view =
         test::random_polytope(d, static_cast<int>(random.below(10)), repeat % 2 == 1, random);
     Eigen::VectorXd guide(d);
     for (double& g : guide) g = random.normal();
     const Eigen::VectorXd from = Eigen::VectorXd::Constant(d, 0.01);
     for (const Eigen::VectorXd& along : {guide, Eigen::VectorXd(Eigen::VectorXd::Zero(d))}) {
-      const Basis basis = purify_to_vertex(set, from, along);
+      const Basis basis = purify_to_vertex(view, from, along);
       ASSERT_EQ(static_cast<int>(basis.size()), d);
       EXPECT_TRUE(std::is_sorted(basis.begin(), basis.end()));
-      const Vertex vertex = compute_vertex(set, basis);
+      const Vertex vertex = compute_vertex(view, basis);
       EXPECT_LE(vertex.infeasibility(), 1e-10) << repeat;
       EXPECT_GE(along.dot(vertex.z), along.dot(from) - 1e-10);
     }
@@ -33,64 +33,64 @@ TEST(Walk, EndsAtAFeasibleVertexAndNeverLosesTheGuide) {
 }
 
 TEST(Walk, FindsTheVertexOfAnUnboundedSet) {
-  FeasibleSet set;
-  set.slope = Eigen::Matrix2d::Identity();
-  set.offset = Eigen::Vector2d::Zero();
-  EXPECT_EQ(purify_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), (Basis{0, 1}));
+  SlopeView view;
+  view.slope = Eigen::Matrix2d::Identity();
+  view.offset = Eigen::Vector2d::Zero();
+  EXPECT_EQ(purify_to_vertex(view, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), (Basis{0, 1}));
 }
 
 TEST(Walk, RefusesASetWithALine) {
-  FeasibleSet set;
-  set.slope = Eigen::RowVector2d(1, 0);
-  set.offset = Eigen::VectorXd::Zero(1);
-  EXPECT_THROW(purify_to_vertex(set, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), LibraryError);
+  SlopeView view;
+  view.slope = Eigen::RowVector2d(1, 0);
+  view.offset = Eigen::VectorXd::Zero(1);
+  EXPECT_THROW(purify_to_vertex(view, Eigen::Vector2d(2, 3), Eigen::Vector2d(1, 1)), LibraryError);
 }
 
 TEST(Vertex, SatisfiesItsInequalitiesAndItsMultipliersReproduceTheObjective) {
   Random random(52);
   for (int repeat = 0; repeat < 40; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(5));
-    const FeasibleSet set = test::random_polytope(d, 6, repeat % 2 == 1, random);
-    const Basis basis = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
-    const Vertex vertex = compute_vertex(set, basis);
+    const SlopeView view = test::random_polytope(d, 6, repeat % 2 == 1, random);
+    const Basis basis = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const Vertex vertex = compute_vertex(view, basis);
     for (const int k : basis) {
       EXPECT_EQ(vertex.x[k], 0);
-      EXPECT_NEAR(set.offset[k] + set.slope.row(k).dot(vertex.z), 0, 1e-13);
+      EXPECT_NEAR(view.offset[k] + view.slope.row(k).dot(vertex.z), 0, 1e-13);
     }
-    const Objective objective = make_objective(set, {{0, 2.0}, {d, -1.0}});
-    EXPECT_LE((objective.along_z - 2 * set.slope.row(0).transpose() + set.slope.row(d).transpose()).norm(),
+    const Objective objective = make_objective(view, {{0, 2.0}, {d, -1.0}});
+    EXPECT_LE((objective.along_z - 2 * view.slope.row(0).transpose() + view.slope.row(d).transpose()).norm(),
               1e-15);
     const Eigen::VectorXd costs = vertex.multipliers(objective.along_z);
-    EXPECT_LE((set.slope(basis, Eigen::all).transpose() * costs + objective.along_z).norm(), 1e-12);
+    EXPECT_LE((view.slope(basis, Eigen::all).transpose() * costs + objective.along_z).norm(), 1e-12);
     for (int k = 0; k < d; ++k) {
       // Leaving inequality k by one unit loses its multiplier.
       EXPECT_NEAR(objective.along_z.dot(vertex.edge_direction(k)), -costs[k], 1e-12);
-      const double length = polytope_edge_length(set, vertex, k);
+      const double length = polytope_edge_length(view, vertex, k);
       ASSERT_TRUE(std::isfinite(length));
-      const Eigen::VectorXd end = set.offset + set.slope * (vertex.z + length * vertex.edge_direction(k));
+      const Eigen::VectorXd end = view.offset + view.slope * (vertex.z + length * vertex.edge_direction(k));
       EXPECT_GE(end.minCoeff(), -1e-10);
       const Eigen::VectorXd beyond =
-          set.offset + set.slope * (vertex.z + (length + 1e-3) * vertex.edge_direction(k));
+          view.offset + view.slope * (vertex.z + (length + 1e-3) * vertex.edge_direction(k));
       EXPECT_LT(beyond.minCoeff(), -1e-6);
     }
   }
 }
 
 TEST(Vertex, EdgeOfAnUnboundedSetHasNoEnd) {
-  FeasibleSet set;
-  set.slope = Eigen::Matrix2d::Identity();
-  set.offset = Eigen::Vector2d::Zero();
-  EXPECT_EQ(polytope_edge_length(set, compute_vertex(set, {0, 1}), 0),
+  SlopeView view;
+  view.slope = Eigen::Matrix2d::Identity();
+  view.offset = Eigen::Vector2d::Zero();
+  EXPECT_EQ(polytope_edge_length(view, compute_vertex(view, {0, 1}), 0),
             std::numeric_limits<double>::infinity());
 }
 
 TEST(Vertex, DependentRowsAreRefused) {
-  FeasibleSet set;
-  set.slope.resize(3, 2);
-  set.slope << 1, 0, 2, 0, 0, 1;
-  set.offset = Eigen::Vector3d(1, 1, 1);
-  EXPECT_THROW(compute_vertex(set, {0, 1}), LibraryError);
-  EXPECT_THROW(compute_vertex(set, {0}), LibraryError);
+  SlopeView view;
+  view.slope.resize(3, 2);
+  view.slope << 1, 0, 2, 0, 0, 1;
+  view.offset = Eigen::Vector3d(1, 1, 1);
+  EXPECT_THROW(compute_vertex(view, {0, 1}), LibraryError);
+  EXPECT_THROW(compute_vertex(view, {0}), LibraryError);
 }
 
 }  // namespace

@@ -17,21 +17,21 @@ TEST(InteriorStart, LeavesEveryConstraintOfAVertex) {
   Random random(81);
   for (int repeat = 0; repeat < 40; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(6));
-    const FeasibleSet set = test::random_polytope(d, 6, false, random);
-    const Basis corner = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const SlopeView view = test::random_polytope(d, 6, false, random);
+    const Basis corner = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     const InteriorStart start =
-        leave_sliding_contacts(set, compute_vertex(set, corner).x, tolerance::kSliding);
+        leave_sliding_contacts(view, compute_vertex(view, corner).x, tolerance::kSliding);
     ASSERT_EQ(start.end, InteriorEnd::kFound);
     EXPECT_EQ(start.sliding, d);
     EXPECT_EQ(start.left, d);
-    EXPECT_GT((set.offset + set.slope * start.z).minCoeff(), tolerance::kSliding);
+    EXPECT_GT((view.offset + view.slope * start.z).minCoeff(), tolerance::kSliding);
   }
 }
 
 TEST(InteriorStart, KeepsAnInteriorState) {
   Random random(82);
-  const FeasibleSet set = test::random_polytope(4, 6, false, random);
-  const InteriorStart start = leave_sliding_contacts(set, set.offset, tolerance::kSliding);
+  const SlopeView view = test::random_polytope(4, 6, false, random);
+  const InteriorStart start = leave_sliding_contacts(view, view.offset, tolerance::kSliding);
   EXPECT_EQ(start.end, InteriorEnd::kFound);
   EXPECT_EQ(start.sliding, 0);
   EXPECT_LT(start.z.norm(), 1e-12);
@@ -39,25 +39,25 @@ TEST(InteriorStart, KeepsAnInteriorState) {
 
 TEST(InteriorStart, TellsWhyThereIsNone) {
   Random random(83);
-  const FeasibleSet set = test::random_polytope(3, 4, false, random);
-  Eigen::VectorXd unknown = set.offset;
+  const SlopeView view = test::random_polytope(3, 4, false, random);
+  Eigen::VectorXd unknown = view.offset;
   unknown[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(leave_sliding_contacts(set, unknown, tolerance::kSliding).end, InteriorEnd::kUnknown);
-  Eigen::VectorXd unbalanced = set.offset;
+  EXPECT_EQ(leave_sliding_contacts(view, unknown, tolerance::kSliding).end, InteriorEnd::kUnknown);
+  Eigen::VectorXd unbalanced = view.offset;
   unbalanced[2] += 0.1;
-  EXPECT_EQ(leave_sliding_contacts(set, unbalanced, tolerance::kSliding).end, InteriorEnd::kOutside);
-  const Eigen::VectorXd violated = set.offset + set.slope * Eigen::Vector3d(-1.5, 0, 0);
-  EXPECT_EQ(leave_sliding_contacts(set, violated, tolerance::kSliding).end, InteriorEnd::kOutside);
+  EXPECT_EQ(leave_sliding_contacts(view, unbalanced, tolerance::kSliding).end, InteriorEnd::kOutside);
+  const Eigen::VectorXd violated = view.offset + view.slope * Eigen::Vector3d(-1.5, 0, 0);
+  EXPECT_EQ(leave_sliding_contacts(view, violated, tolerance::kSliding).end, InteriorEnd::kOutside);
 }
 
 TEST(InteriorStart, ATightCornerIsReported) {
   // Four planes meet at the tip of a pyramid: none can be left while the other three are kept.
-  FeasibleSet set;
-  set.slope.resize(5, 3);
-  set.slope << 1, 0, 1, -1, 0, 1, 0, 1, 1, 0, -1, 1, 0, 0, -1;
-  set.offset.resize(5);
-  set.offset << 0, 0, 0, 0, 1;
-  const InteriorStart start = leave_sliding_contacts(set, set.offset, tolerance::kSliding);
+  SlopeView view;
+  view.slope.resize(5, 3);
+  view.slope << 1, 0, 1, -1, 0, 1, 0, 1, 1, 0, -1, 1, 0, 0, -1;
+  view.offset.resize(5);
+  view.offset << 0, 0, 0, 0, 1;
+  const InteriorStart start = leave_sliding_contacts(view, view.offset, tolerance::kSliding);
   EXPECT_EQ(start.end, InteriorEnd::kTightCorner);
   EXPECT_EQ(start.sliding, 4);
   EXPECT_EQ(start.z.size(), 0);

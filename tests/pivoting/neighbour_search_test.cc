@@ -14,18 +14,18 @@ namespace {
 
 constexpr double kEpsilon = 1e-9;
 
-double best_corner(const FeasibleSet& set, const Objective& objective) {
-  return (oracle::enumerate_corners(set.slope, set.offset).vertices * objective.along_z).maxCoeff();
+double best_corner(const SlopeView& view, const Objective& objective) {
+  return (oracle::enumerate_corners(view.slope, view.offset).vertices * objective.along_z).maxCoeff();
 }
 
 /// The square [0, 1]², and more half-planes.
-FeasibleSet square(const Eigen::MatrixXd& more, const Eigen::VectorXd& offsets) {
-  FeasibleSet set;
-  set.slope.resize(4 + more.rows(), 2);
-  set.slope << 1, 0, 0, 1, -1, 0, 0, -1, more;
-  set.offset.resize(4 + more.rows());
-  set.offset << 0, 0, 1, 1, offsets;
-  return set;
+SlopeView square(const Eigen::MatrixXd& more, const Eigen::VectorXd& offsets) {
+  SlopeView view;
+  view.slope.resize(4 + more.rows(), 2);
+  view.slope << 1, 0, 0, 1, -1, 0, 0, -1, more;
+  view.offset.resize(4 + more.rows());
+  view.offset << 0, 0, 1, 1, offsets;
+  return view;
 }
 
 TEST(NeighbourSearch, ClimbsToTheBestCornerOfSimplePolytopes) {
@@ -33,33 +33,33 @@ TEST(NeighbourSearch, ClimbsToTheBestCornerOfSimplePolytopes) {
   for (int repeat = 0; repeat < 60; ++repeat) {
     SCOPED_TRACE(repeat);
     const int d = 1 + static_cast<int>(random.below(5));
-    const FeasibleSet set = test::random_polytope(d, static_cast<int>(random.below(7)), false, random);
+    const SlopeView view = test::random_polytope(d, static_cast<int>(random.below(7)), false, random);
     std::vector<std::pair<int, double>> on_edges;
-    for (int k = 0; k < set.inequalities(); ++k) on_edges.emplace_back(k, random.normal());
-    const Objective objective = make_objective(set, on_edges);
-    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(d));
-    const NeighbourWalk walk = NeighbourSearch(set, kEpsilon).walk(objective, start);
+    for (int k = 0; k < view.inequalities(); ++k) on_edges.emplace_back(k, random.normal());
+    const Objective objective = make_objective(view, on_edges);
+    const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(d));
+    const NeighbourWalk walk = NeighbourSearch(view, kEpsilon).walk(objective, start);
     EXPECT_EQ(walk.end, WalkEnd::kNoneBetter);
     EXPECT_EQ(walk.neighbours, d * (walk.steps + 1)) << "all neighbours of every point are looked at";
     EXPECT_EQ(walk.unexpected, 0);
-    const Vertex vertex = compute_vertex(set, walk.basis);
-    EXPECT_NEAR(objective.along_z.dot(vertex.z), best_corner(set, objective), 1e-9);
+    const Vertex vertex = compute_vertex(view, walk.basis);
+    EXPECT_NEAR(objective.along_z.dot(vertex.z), best_corner(view, objective), 1e-9);
   }
 }
 
 TEST(NeighbourSearch, GoesToTheBestOfTheNeighbours) {
   // From the origin both axes lead up; the far corner of the longer one is better.
-  FeasibleSet set = square(Eigen::MatrixXd(0, 2), Eigen::VectorXd(0));
-  set.offset[3] = 5;
+  SlopeView view = square(Eigen::MatrixXd(0, 2), Eigen::VectorXd(0));
+  view.offset[3] = 5;
   const NeighbourWalk walk =
-      NeighbourSearch(set, kEpsilon).walk(make_objective(set, {{0, 1.0}, {1, 1.0}}), {0, 1});
+      NeighbourSearch(view, kEpsilon).walk(make_objective(view, {{0, 1.0}, {1, 1.0}}), {0, 1});
   EXPECT_EQ(walk.basis, (Basis{2, 3}));
   EXPECT_EQ(walk.steps, 2);
 }
 
 TEST(NeighbourSearch, ReportsPointsWithMoreActiveConstraintsThanDimensions) {
   // The line z0 + z1 = 0 touches the square in the corner from which the walk starts.
-  const FeasibleSet touched = square(Eigen::RowVector2d(1, 1), Eigen::VectorXd::Zero(1));
+  const SlopeView touched = square(Eigen::RowVector2d(1, 1), Eigen::VectorXd::Zero(1));
   const Objective up = make_objective(touched, {{0, 1.0}});
   const NeighbourWalk passed = NeighbourSearch(touched, kEpsilon).walk(up, {0, 1});
   EXPECT_EQ(passed.end, WalkEnd::kNoneBetter);
@@ -73,18 +73,18 @@ TEST(NeighbourSearch, ReportsPointsWithMoreActiveConstraintsThanDimensions) {
 TEST(NeighbourSearch, IsCaughtInACornerAsThePaperIs) {
   // A square pyramid stood on its tip: four planes z2 ≥ |z0|, z2 ≥ |z1| meet at the origin, and from a basis
   // of three of them every edge that gains is blocked at once.
-  FeasibleSet set;
-  set.slope.resize(5, 3);
-  set.slope << 1, 0, 1, -1, 0, 1, 0, 1, 1, 0, -1, 1, 0, 0, -1;
-  set.offset.resize(5);
-  set.offset << 0, 0, 0, 0, 1;
-  const Objective objective = make_objective(set, {{3, -1.0}, {0, -1.0}});
+  SlopeView view;
+  view.slope.resize(5, 3);
+  view.slope << 1, 0, 1, -1, 0, 1, 0, 1, 1, 0, -1, 1, 0, 0, -1;
+  view.offset.resize(5);
+  view.offset << 0, 0, 0, 0, 1;
+  const Objective objective = make_objective(view, {{3, -1.0}, {0, -1.0}});
   int caught = 0;
   oracle::for_each_choice(4, 3, [&](const std::vector<int>& start) {
-    const NeighbourWalk walk = NeighbourSearch(set, kEpsilon).walk(objective, start);
-    const double value = objective.along_z.dot(compute_vertex(set, walk.basis).z);
+    const NeighbourWalk walk = NeighbourSearch(view, kEpsilon).walk(objective, start);
+    const double value = objective.along_z.dot(compute_vertex(view, walk.basis).z);
     if (walk.end == WalkEnd::kNoneBetter) {
-      EXPECT_NEAR(value, best_corner(set, objective), 1e-9);
+      EXPECT_NEAR(value, best_corner(view, objective), 1e-9);
     }
     caught += walk.end == WalkEnd::kMoreActive ? 1 : 0;
   });
@@ -92,17 +92,17 @@ TEST(NeighbourSearch, IsCaughtInACornerAsThePaperIs) {
 }
 
 TEST(NeighbourSearch, ReportsEdgesWithoutEnd) {
-  FeasibleSet set;  // the quadrant
-  set.slope = Eigen::Matrix2d::Identity();
-  set.offset = Eigen::Vector2d::Zero();
-  const NeighbourSearch search(set, kEpsilon);
-  EXPECT_EQ(search.walk(make_objective(set, {{0, 1.0}}), {0, 1}).end, WalkEnd::kPolytopeEdgeWithoutEnd);
-  EXPECT_EQ(search.walk(make_objective(set, {{0, -1.0}}), {0, 1}).end, WalkEnd::kNoneBetter);
+  SlopeView view;  // the quadrant
+  view.slope = Eigen::Matrix2d::Identity();
+  view.offset = Eigen::Vector2d::Zero();
+  const NeighbourSearch search(view, kEpsilon);
+  EXPECT_EQ(search.walk(make_objective(view, {{0, 1.0}}), {0, 1}).end, WalkEnd::kPolytopeEdgeWithoutEnd);
+  EXPECT_EQ(search.walk(make_objective(view, {{0, -1.0}}), {0, 1}).end, WalkEnd::kNoneBetter);
 }
 
 TEST(NeighbourSearch, ReportsLostDirections) {
-  FeasibleSet set = square(Eigen::RowVector2d(1, 1e-14), Eigen::VectorXd::Zero(1));
-  EXPECT_EQ(NeighbourSearch(set, kEpsilon).walk(make_objective(set, {{1, 1.0}}), {0, 4}).end,
+  SlopeView view = square(Eigen::RowVector2d(1, 1e-14), Eigen::VectorXd::Zero(1));
+  EXPECT_EQ(NeighbourSearch(view, kEpsilon).walk(make_objective(view, {{1, 1.0}}), {0, 4}).end,
             WalkEnd::kDirectionsLost);
 }
 

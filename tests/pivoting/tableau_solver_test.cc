@@ -23,7 +23,7 @@ using test::random_objective;
 using test::value_of;
 
 test::MakeMaximiser maker(PivotRule rule) {
-  return [rule](const FeasibleSet& set) { return std::make_unique<TableauSolver>(set, rule); };
+  return [rule](const SlopeView& view) { return std::make_unique<TableauSolver>(view, rule); };
 }
 
 class Rules : public testing::TestWithParam<PivotRule> {};
@@ -32,17 +32,17 @@ TEST_P(Rules, FindTheBestCorner) {
   Random random(61);
   for (int repeat = 0; repeat < 60; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(5));
-    const FeasibleSet set =
+    const SlopeView view =
         test::random_polytope(d, static_cast<int>(random.below(7)), repeat % 2 == 1, random);
-    const oracle::Corners corners = oracle::enumerate_corners(set.slope, set.offset);
-    TableauSolver solver(set, GetParam());
-    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const oracle::Corners corners = oracle::enumerate_corners(view.slope, view.offset);
+    TableauSolver solver(view, GetParam());
+    const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (int goal = 0; goal < 5; ++goal) {
       SCOPED_TRACE(std::to_string(repeat) + ", " + std::to_string(goal));
-      const Objective objective = random_objective(set, random);
+      const Objective objective = random_objective(view, random);
       const LpAnswer answer = solver.maximise(objective, start);
       ASSERT_EQ(answer.status, LpStatus::kOptimal);
-      EXPECT_NEAR(value_of(set, objective, answer), best_corner(set, corners, objective, {}), 1e-9);
+      EXPECT_NEAR(value_of(view, objective, answer), best_corner(view, corners, objective, {}), 1e-9);
       EXPECT_TRUE(std::is_sorted(answer.basis.begin(), answer.basis.end()));
       EXPECT_EQ(solver.maximise(objective, answer.basis).pivots, 0) << "an optimal start needs no pivot";
     }
@@ -62,28 +62,28 @@ TEST_P(Rules, TellUnboundedFromOptimal) {
 /// 3/4 a − 150 b + 1/50 c − 6 d over a, b, c, d ≥ 0 and the three inequalities below; 1/20 at (1/25, 0, 1,
 /// 0).
 TEST_P(Rules, DoNotCycle) {
-  FeasibleSet set;
-  set.slope = Eigen::MatrixXd::Identity(7, 4);
-  set.slope.row(4) << -0.25, 60, 1.0 / 25, -9;
-  set.slope.row(5) << -0.5, 90, 1.0 / 50, -3;
-  set.slope.row(6) << 0, 0, -1, 0;
-  set.offset = Eigen::VectorXd::Unit(7, 6);
-  TableauSolver solver(set, GetParam());
-  const Objective objective = make_objective(set, {{0, 0.75}, {1, -150}, {2, 1.0 / 50}, {3, -6}});
+  SlopeView view;
+  view.slope = Eigen::MatrixXd::Identity(7, 4);
+  view.slope.row(4) << -0.25, 60, 1.0 / 25, -9;
+  view.slope.row(5) << -0.5, 90, 1.0 / 50, -3;
+  view.slope.row(6) << 0, 0, -1, 0;
+  view.offset = Eigen::VectorXd::Unit(7, 6);
+  TableauSolver solver(view, GetParam());
+  const Objective objective = make_objective(view, {{0, 0.75}, {1, -150}, {2, 1.0 / 50}, {3, -6}});
   const LpAnswer answer = solver.maximise(objective, {0, 1, 2, 3});
   ASSERT_EQ(answer.status, LpStatus::kOptimal);
-  EXPECT_NEAR(value_of(set, objective, answer), 0.05, 1e-15);
+  EXPECT_NEAR(value_of(view, objective, answer), 0.05, 1e-15);
 }
 
 TEST_P(Rules, GiveUpAtTheirLimit) {
   Random random(63);
-  const FeasibleSet set = test::random_polytope(6, 20, false, random);
+  const SlopeView view = test::random_polytope(6, 20, false, random);
   LpOptions options;
   options.iteration_limit = 1;
-  const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(6), -Eigen::VectorXd::Ones(6));
+  const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(6), -Eigen::VectorXd::Ones(6));
   const Objective objective =
-      make_objective(set, {{0, 1.0}, {1, 1.0}, {2, 1.0}, {3, 1.0}, {4, 1.0}, {5, 1.0}});
-  const LpAnswer answer = TableauSolver(set, GetParam(), options).maximise(objective, start);
+      make_objective(view, {{0, 1.0}, {1, 1.0}, {2, 1.0}, {3, 1.0}, {4, 1.0}, {5, 1.0}});
+  const LpAnswer answer = TableauSolver(view, GetParam(), options).maximise(objective, start);
   EXPECT_EQ(answer.status, LpStatus::kFailed);
   EXPECT_TRUE(answer.basis.empty());
 }

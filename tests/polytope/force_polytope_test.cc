@@ -31,25 +31,27 @@ void expect_consistent(const Packing& packing, const ForcePolytope& polytope) {
   int dim = 0;
   std::set<int> seen;
   for (const PolytopeBlock& block : polytope.blocks) {
-    dim += block.set.dim();
+    dim += block.view.dim();
     for (const int edge : block.edges) EXPECT_TRUE(seen.insert(edge).second) << "edge in two blocks";
     // Each block's motion balances by itself, its lightest vertex is that of the whole, and its two
     // descriptions agree.
-    const Vertex vertex = compute_vertex(block.set, block.lightest);
+    const Vertex vertex = compute_vertex(block.view, block.lightest);
     for (std::size_t k = 0; k < block.edges.size(); ++k)
       EXPECT_NEAR(vertex.x[static_cast<Eigen::Index>(k)], polytope.lightest[block.edges[k]], 1e-11);
-    for (int j = 0; j < block.set.dim(); ++j) {
+    for (int j = 0; j < block.view.dim(); ++j) {
       Eigen::VectorXd x = Eigen::VectorXd::Zero(polytope.problem.unknowns());
-      x(block.edges) = block.set.slope.col(j);
+      x(block.edges) = block.view.slope.col(j);
       EXPECT_LE((c * polytope.problem.state(x).value()).norm(), 1e-11);
     }
-    EXPECT_EQ(block.set.equations.rows(), block.set.inequalities() - block.set.dim());
-    EXPECT_LE((block.set.equations * block.set.slope).norm(), 1e-12);
-    EXPECT_LE((block.set.equations * block.set.offset - block.set.right_hand_side).norm(), 1e-13);
-    EXPECT_EQ(oracle::solve_dense(Eigen::MatrixXd(block.set.equations),
-                                  Eigen::VectorXd::Zero(block.set.equations.rows()))
+    EXPECT_EQ(block.view.set, block.set);
+    EXPECT_EQ(block.set->dim(), block.view.dim());
+    EXPECT_EQ(block.set->inequalities(), block.view.inequalities());
+    EXPECT_LE((block.set->equations * block.view.slope).norm(), 1e-12);
+    EXPECT_LE((block.set->equations * block.view.offset - block.set->right_hand_side).norm(), 1e-13);
+    EXPECT_EQ(oracle::solve_dense(Eigen::MatrixXd(block.set->equations),
+                                  Eigen::VectorXd::Zero(block.set->equations.rows()))
                   .rank,
-              block.set.equations.rows());
+              block.set->equations.rows());
   }
   EXPECT_EQ(dim, polytope.dim);
 }

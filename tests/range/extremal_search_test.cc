@@ -18,9 +18,9 @@ namespace {
 
 using test::random_polytope;
 
-std::vector<Component> components_of(const FeasibleSet& set) {
+std::vector<Component> components_of(const SlopeView& view) {
   std::vector<Component> components;
-  for (int k = 0; k + 1 < set.inequalities(); ++k)
+  for (int k = 0; k + 1 < view.inequalities(); ++k)
     components.push_back({{{k, 1.0}, {k + 1, k % 2 == 0 ? 1.0 : -1.0}}});
   return components;
 }
@@ -29,18 +29,17 @@ TEST(ExtremalSearch, FindsTheExtremaOfAllVertices) {
   Random random(31);
   for (int repeat = 0; repeat < 60; ++repeat) {
     const int d = 1 + static_cast<int>(random.below(4));
-    const FeasibleSet set =
-        random_polytope(d, 2 + static_cast<int>(random.below(6)), repeat % 2 == 1, random);
-    const std::vector<Component> components = components_of(set);
-    const Eigen::VectorXd weight = Eigen::VectorXd::Ones(set.inequalities());
-    const auto corners = oracle::enumerate_corners(set.slope, set.offset);
-    const Eigen::MatrixXd x = (corners.vertices * set.slope.transpose()).rowwise() + set.offset.transpose();
-    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const SlopeView view = random_polytope(d, 2 + static_cast<int>(random.below(6)), repeat % 2 == 1, random);
+    const std::vector<Component> components = components_of(view);
+    const Eigen::VectorXd weight = Eigen::VectorXd::Ones(view.inequalities());
+    const auto corners = oracle::enumerate_corners(view.slope, view.offset);
+    const Eigen::MatrixXd x = (corners.vertices * view.slope.transpose()).rowwise() + view.offset.transpose();
+    const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
       SCOPED_TRACE(std::to_string(repeat) + " " + to_string(formulation));
       SearchOptions options;
       options.formulation = formulation;
-      const SearchResult found = search_extrema(set, components, weight, start, options);
+      const SearchResult found = search_extrema(view, components, weight, start, options);
       for (std::size_t c = 0; c < components.size(); ++c) {
         Eigen::VectorXd values = Eigen::VectorXd::Zero(x.rows());
         for (const auto& [index, coefficient] : components[c].on_edges) values += coefficient * x.col(index);
@@ -72,18 +71,18 @@ TEST(ExtremalSearch, TellsWhereTheSolverLands) {
   int others = 0;
   for (int repeat = 0; repeat < 40; ++repeat) {
     const int d = 2 + static_cast<int>(random.below(3));
-    const FeasibleSet set = random_polytope(d, 4, repeat % 2 == 1, random);
-    const std::vector<Component> components = components_of(set);
-    const Eigen::VectorXd weight = Eigen::VectorXd::Ones(set.inequalities());
-    const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
+    const SlopeView view = random_polytope(d, 4, repeat % 2 == 1, random);
+    const std::vector<Component> components = components_of(view);
+    const Eigen::VectorXd weight = Eigen::VectorXd::Ones(view.inequalities());
+    const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d));
     for (const Method method : {Method::kLp, Method::kPivotingTableau, Method::kPivotingPaper}) {
       SCOPED_TRACE(std::to_string(repeat) + " " + to_string(method));
       SearchOptions options;
       options.method = method;
       options.solver_states = true;
-      const SearchResult found = search_extrema(set, components, weight, start, options);
+      const SearchResult found = search_extrema(view, components, weight, start, options);
       options.canonical_states = options.solver_states = false;
-      const SearchResult plain = search_extrema(set, components, weight, start, options);
+      const SearchResult plain = search_extrema(view, components, weight, start, options);
       for (std::size_t c = 0; c < components.size(); ++c) {
         for (const auto& [both, one] : {std::pair(&found.minimum[c], &plain.minimum[c]),
                                         std::pair(&found.maximum[c], &plain.maximum[c])}) {
@@ -103,31 +102,31 @@ TEST(ExtremalSearch, TellsWhereTheSolverLands) {
 
 TEST(ExtremalSearch, LeavesOutWhatIsNotWanted) {
   Random random(32);
-  const FeasibleSet set = random_polytope(3, 4, false, random);
-  std::vector<Component> components = components_of(set);
+  const SlopeView view = random_polytope(3, 4, false, random);
+  std::vector<Component> components = components_of(view);
   components[0].minimise = false;
   components[1].maximise = false;
-  const Basis start = purify_to_vertex(set, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3));
+  const Basis start = purify_to_vertex(view, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3));
   const SearchResult found =
-      search_extrema(set, components, Eigen::VectorXd::Ones(set.inequalities()), start, {});
+      search_extrema(view, components, Eigen::VectorXd::Ones(view.inequalities()), start, {});
   EXPECT_EQ(found.minimum[0].status, Extremum::Status::kOpen);
   EXPECT_EQ(found.maximum[1].status, Extremum::Status::kOpen);
   EXPECT_EQ(found.maximum[0].status, Extremum::Status::kOptimal);
 }
 
 TEST(ExtremalSearch, UnboundedFunctionalsAreTold) {
-  FeasibleSet set;  // the quadrant, and the strip z0 − z1 ≥ −1
-  set.slope.resize(3, 2);
-  set.slope << 1, 0, 0, 1, 1, -1;
-  set.offset.resize(3);
-  set.offset << 0, 0, 1;
-  set.equations = Eigen::RowVector3d(1, -1, -1).sparseView();
-  set.right_hand_side = set.equations * set.offset;
+  SlopeView view;  // the quadrant, and the strip z0 − z1 ≥ −1
+  view.slope.resize(3, 2);
+  view.slope << 1, 0, 0, 1, 1, -1;
+  view.offset.resize(3);
+  view.offset << 0, 0, 1;
+  view.set = std::make_shared<FeasibleSet>(
+      FeasibleSet{Eigen::RowVector3d(1, -1, -1).sparseView(), Eigen::VectorXd::Constant(1, -1)});
   const std::vector<Component> components = {{{{0, 1.0}}}, {{{1, 1.0}}}, {{{0, 1.0}, {2, -1.0}}}};
   for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
     SearchOptions options;
     options.formulation = formulation;
-    const SearchResult found = search_extrema(set, components, Eigen::Vector3d::Ones(), {0, 1}, options);
+    const SearchResult found = search_extrema(view, components, Eigen::Vector3d::Ones(), {0, 1}, options);
     for (int c = 0; c < 3; ++c) {
       EXPECT_EQ(found.maximum[static_cast<std::size_t>(c)].status, Extremum::Status::kUnbounded) << c;
       EXPECT_EQ(found.minimum[static_cast<std::size_t>(c)].status, Extremum::Status::kOptimal) << c;

@@ -8,23 +8,23 @@ namespace indet {
 namespace {
 
 /// A pyramid over a square, |z_0| ≤ z_2, |z_1| ≤ z_2 ≤ 1: four inequalities meet in its apex.
-FeasibleSet pyramid() {
-  FeasibleSet set;
-  set.slope.resize(5, 3);
-  set.slope << -1, 0, 1,  //
-      1, 0, 1,            //
-      0, -1, 1,           //
-      0, 1, 1,            //
+SlopeView pyramid() {
+  SlopeView view;
+  view.slope.resize(5, 3);
+  view.slope << -1, 0, 1,  //
+      1, 0, 1,             //
+      0, -1, 1,            //
+      0, 1, 1,             //
       0, 0, -1;
-  set.offset = Eigen::VectorXd::Unit(5, 4);
-  return set;
+  view.offset = Eigen::VectorXd::Unit(5, 4);
+  return view;
 }
 
 TEST(OptimalityChecker, EdgesOfAFaceAtADegenerateVertex) {
-  const FeasibleSet set = pyramid();
+  const SlopeView view = pyramid();
   const std::vector<Component> components = {{{{4, 1.0}}}};
   const Eigen::VectorXd weight = Eigen::VectorXd::Ones(5);
-  const OptimalityChecker checker(set, components, weight, true);
+  const OptimalityChecker checker(view, components, weight, true);
   struct Case {
     Basis basis;
     std::vector<int> held;

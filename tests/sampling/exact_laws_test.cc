@@ -108,11 +108,11 @@ TEST(KolmogorovPValue, OfSomeKnownDistances) {
 
 /// One p-value for each of 20 seeds, from samples so far apart that they are independent; the p-values are
 /// then uniform themselves.
-void expect_uniform_p_values(const FeasibleSet& set, int component,
+void expect_uniform_p_values(const SlopeView& view, int component,
                              const std::function<double(double)>& distribution) {
   std::vector<double> p_values;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const UniformSample sample = draw_effective(make_body(set), seed, 1000);
+    const UniformSample sample = draw_effective(make_body(view), seed, 1000);
     const auto between =
         static_cast<Eigen::Index>(std::ceil(4.0 * sample.count() / std::min(sample.bulk, sample.tail)));
     std::vector<double> values;

@@ -23,16 +23,16 @@ UniformSample draw_for_volume(const ConvexBody& body, double effective = 400) {
   return sample_uniformly(body, options);
 }
 
-VolumeEstimate volume_of(const FeasibleSet& set, int sweeps, int threads = 1) {
-  const ConvexBody body = make_body(set);
+VolumeEstimate volume_of(const SlopeView& view, int sweeps, int threads = 1) {
+  const ConvexBody body = make_body(view);
   VolumeOptions options;
   options.sweeps = sweeps;
   options.threads = threads;
   return estimate_volume(body, draw_for_volume(body), options);
 }
 
-void expect_volume(const FeasibleSet& set, double log_volume, int sweeps, double largest_error) {
-  const VolumeEstimate estimate = volume_of(set, sweeps);
+void expect_volume(const SlopeView& view, double log_volume, int sweeps, double largest_error) {
+  const VolumeEstimate estimate = volume_of(view, sweeps);
   EXPECT_NEAR(estimate.log_volume, log_volume, 4 * estimate.error);
   EXPECT_LT(estimate.error, largest_error);
   EXPECT_GT(estimate.error, 0);

@@ -10,7 +10,7 @@
 namespace indet::test {
 
 /// Makes the method that is tested, over a set that outlives it.
-using MakeMaximiser = std::function<std::unique_ptr<Maximiser>(const FeasibleSet&)>;
+using MakeMaximiser = std::function<std::unique_ptr<Maximiser>(const SlopeView&)>;
 
 /// Expects that the method finds the best corner on the faces that it is asked to hold, which contain the
 /// start and may be none of its basis, and the best of all corners when asked without them afterwards.

@@ -1,30 +1,33 @@
 #include "tests/support/sets.h"
 
 #include <Eigen/LU>
+#include <memory>
+#include <utility>
 
 namespace indet::test {
 
-FeasibleSet random_polytope(int d, int extra, bool degenerate, Random& random) {
-  FeasibleSet set;
-  set.slope.resize(d + 1 + extra, d);
-  set.offset.resize(d + 1 + extra);
-  set.slope.topRows(d).setIdentity();
-  set.slope.row(d).setConstant(-1);
-  set.offset.head(d + 1).setConstant(1);
-  for (int k = d + 1; k < set.inequalities(); ++k) {
+SlopeView random_polytope(int d, int extra, bool degenerate, Random& random) {
+  SlopeView view;
+  view.slope.resize(d + 1 + extra, d);
+  view.offset.resize(d + 1 + extra);
+  view.slope.topRows(d).setIdentity();
+  view.slope.row(d).setConstant(-1);
+  view.offset.head(d + 1).setConstant(1);
+  for (int k = d + 1; k < view.inequalities(); ++k) {
     for (int j = 0; j < d; ++j)
-      set.slope(k, j) = degenerate ? static_cast<double>(random.below(3)) - 1.0 : random.normal();
-    set.offset[k] = degenerate ? 1 : random.uniform(0.3, 1);
+      view.slope(k, j) = degenerate ? static_cast<double>(random.below(3)) - 1.0 : random.normal();
+    view.offset[k] = degenerate ? 1 : random.uniform(0.3, 1);
   }
-  describe_implicitly(set);
-  return set;
+  make_set(view);
+  return view;
 }
 
-void describe_implicitly(FeasibleSet& set) {
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(set.slope.transpose());
+void make_set(SlopeView& view) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(view.slope.transpose());
   const Eigen::MatrixXd kernel = lu.kernel();
-  set.equations = kernel.transpose().sparseView();
-  set.right_hand_side = set.equations * set.offset;
+  FeasibleSet set{kernel.transpose().sparseView(), {}};
+  set.right_hand_side = set.equations * view.offset;
+  view.set = std::make_shared<FeasibleSet>(std::move(set));
 }
 
 }  // namespace indet::test

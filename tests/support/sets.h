@@ -6,10 +6,10 @@
 namespace indet::test {
 
 /// A bounded, full-dimensional set around the origin: a simplex cut by `extra` more half-planes, in both
-/// descriptions. `degenerate`: half-planes with small integers, many of which meet in one vertex or coincide.
-FeasibleSet random_polytope(int d, int extra, bool degenerate, Random& random);
+/// forms. `degenerate`: half-planes with small integers, many of which meet in one vertex or coincide.
+SlopeView random_polytope(int d, int extra, bool degenerate, Random& random);
 
-/// Fills the implicit description from the explicit one.
-void describe_implicitly(FeasibleSet& set);
+/// Finds the set of which this is a view.
+void make_set(SlopeView& view);
 
 }  // namespace indet::test
