@@ -29,6 +29,8 @@ endfunction()
 
 if(INDET_SANITIZE)
   add_compile_options(-fsanitize=${INDET_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # A third of the compilation, for what AddressSanitizer finds as well (null, object-size) or x86 allows (alignment).
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=null,object-size,alignment>)
   add_link_options(-fsanitize=${INDET_SANITIZE})
 endif()
 

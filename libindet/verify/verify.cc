@@ -91,9 +91,9 @@ class Verifier {
       tight_.push_back(std::move(tight));
     }
     const double imbalance = residuals_.empty() ? 0 : compare_.result().worst_imbalance;
-    compare_.require(
-        std::abs(ranges_.residual - imbalance) <= tolerance::kAgreement * std::max(1.0, imbalance),
-        "residual: {} is stored, {} is right", ranges_.residual, imbalance);
+    compare_.require(std::abs(ranges_.residual - imbalance) <=
+                         tolerance::kAgreement * std::max(problem_.internal_unit(), imbalance),
+                     "residual: {} is stored, {} is right", ranges_.residual, imbalance);
     if (ranges_.norm.size() > 0) {
       Eigen::Index largest = 0;
       ranges_.norm.maxCoeff(&largest);

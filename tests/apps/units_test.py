@@ -83,8 +83,8 @@ class ScaledScenes(program.ProgramTest):
         self.run_indet("sample", packing, "--samples", "20", "-o", f"{name}.perturb.h5")
         self.run_indet("sample", "--method", "uniform", "--shape", "--states", "8", "--covariance", packing, "-o",
                        f"{name}.uniform.h5")
-        if "force_unit" not in scene["scene.toml"]:
-            self.run_indet("verify", f"{name}.ranges.h5")
+        for part in ("ranges", "perturb", "uniform"):
+            self.run_indet("verify", f"{name}.{part}.h5")
         compared = json.loads(self.run_indet("--json", "compare", packing).stdout)
         return ({part: numbers(self.folder / f"{name}{part}.h5") for part in ("", ".ranges", ".perturb", ".uniform")},
                 compared)
@@ -132,7 +132,9 @@ class ScaledScenes(program.ProgramTest):
                     np.testing.assert_allclose(again, value, rtol=1e-13, atol=1e-14 * max(1, sensitivity))
             for key in ("dim", "nullity", "rank", "certified", "objectives"):
                 self.assertEqual(found[f"equilibrium@{key}"][0], expected[f"equilibrium@{key}"][0])
-            shown = json.loads(self.run_indet("--json", "sample", "--method", "uniform", scaled).stdout)
+            shown = json.loads(self.run_indet("--json", "sample", "--method", "uniform", scaled, "-o",
+                                              f"{name}.uniform.h5").stdout)
+            self.run_indet("verify", f"{name}.uniform.h5")
             self.assertEqual(shown["stopped_by"], "convergence")
             self.assertLess(shown["worst_residual"], 1e-12)
 

@@ -251,7 +251,7 @@ class EnsembleTest(program.ProgramTest):
         os.close(here)
 
     def test_processes_share_a_folder(self):
-        arguments = ["ensemble", "--seeds", "4", *TINY[2:]]
+        arguments = ["ensemble", "--seeds", "2", *TINY[2:]]
         self.run_indet(*arguments, "-o", "alone")
         started = [subprocess.Popen([program.INDET, *arguments, "-o", "e", "--threads", "2", "--json"], cwd=self.folder,
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
@@ -259,11 +259,11 @@ class EnsembleTest(program.ProgramTest):
             output, error = process.communicate(timeout=120)
             self.assertEqual((process.returncode, error), (0, ""))
             report = json.loads(output)
-            self.assertEqual((report["done"] + report["skipped"], report["missing"]), (16, []))
+            self.assertEqual((report["done"] + report["skipped"], report["missing"]), (8, []))
         self.assertEqual(content(self.folder / "e/ensemble.h5"), content(self.folder / "alone/ensemble.h5"))
         for path in (self.folder / "e/members").iterdir():
             self.assertEqual(content(path), content(self.folder / "alone/members" / path.name))
-        self.assertEqual(len(list((self.folder / "e").rglob("*"))), 19)  # two files, the folder, and the members
+        self.assertEqual(len(list((self.folder / "e").rglob("*"))), 11)  # two files, the folder, and the members
 
     def test_a_folder_of_an_earlier_version_is_refused_until_it_is_renamed(self):
         self.ensemble("e")
