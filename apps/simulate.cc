@@ -16,6 +16,7 @@
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
+#include "apps/simulate_arguments.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/io/destination.h"
@@ -28,30 +29,6 @@ namespace {
 
 using sim::Scene;
 using sim::SimulationOptions;
-
-/// Options as given; what is empty keeps the default of the simulator or of the scene file.
-struct SimulateOptions {
-  std::string protocol_name;
-  std::string scene_file, from, output;
-  std::optional<std::uint64_t> seed;
-  // Scene.
-  std::optional<int> disks, columns;
-  std::vector<double> radius, gravity;
-  std::optional<double> density, mu, wall_mu, force_unit, width, height, funnel_angle, jitter;
-  std::string container;
-  // Simulator.
-  std::string preset = "stiff", damping_method = "automatic";
-  std::optional<double> stiffness, damping, dt, tolerance, alpha, restitution, tangential_restitution;
-  std::optional<int> sweeps;
-  std::optional<double> residual, kinetic_energy, time_limit;
-  // Run.
-  double every = 0;
-  double checkpoint = 600;
-  bool resume = false;
-  bool overwrite = false;
-
-  sim::Protocol protocol() const { return sim::protocol_from(protocol_name).value(); }
-};
 
 template <class T, class U>
 void set(T& target, const std::optional<U>& given) {
@@ -279,91 +256,6 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   if (result.polished.balanced) return kDone;
   context.warn(fmt::format("{}: the forces do not balance: {}", o.output, result.polished.reason));
   return kUncertain;
-}
-
-void add_scene_options(CLI::App& command, SimulateOptions& o) {
-  const char* group = "Scene";
-  command.add_option("--scene", o.scene_file, "TOML file of the scene")
-      ->check(CLI::ExistingFile)
-      ->group(group);
-  command.add_option("--disks", o.disks, "Number of disks (default: 95)")->group(group);
-  command.add_option("--radius", o.radius, "Smallest and largest radius (default: 0.7,1)")
-      ->delimiter(',')
-      ->expected(2)
-      ->group(group);
-  command.add_option("--density", o.density, "Mass per area (default: 1)")->group(group);
-  command.add_option("--mu", o.mu, "Friction coefficient (default: 0.3, or that of --from)")->group(group);
-  command.add_option("--wall-mu", o.wall_mu, "Friction coefficient of the walls (default: that of --mu)")
-      ->group(group);
-  command.add_option("--gravity", o.gravity, "Acceleration of gravity x,y (default: 0,-1)")
-      ->delimiter(',')
-      ->expected(2)
-      ->group(group);
-  command.add_option("--force-unit", o.force_unit, "Unit of force of a scene without gravity")->group(group);
-  command.add_option("--container", o.container, "Walls: box, floor, funnel or none (default: box)")
-      ->group(group);
-  command.add_option("--width", o.width, "Width Lx of the container (default: 2.2 largest radii per column)")
-      ->group(group);
-  command
-      .add_option(
-          "--height", o.height,
-          "Height Ly of the grid, from which the time limit follows (default: 2 largest radii per row)")
-      ->group(group);
-  command.add_option("--funnel-angle", o.funnel_angle, "Slope of the funnel, degrees (default: 30)")
-      ->group(group);
-  command
-      .add_option("--columns", o.columns,
-                  "Columns of the grid (default: as many as keep the shape of the box)")
-      ->group(group);
-  command
-      .add_option("--jitter", o.jitter,
-                  "How much of the free room in its cell a disk is moved by at random, 0 to 1 (default: 1)")
-      ->group(group);
-}
-
-void add_method_options(CLI::App& command, SimulateOptions& o) {
-  const char* group =
-      "Method (in units of mg, r_max, sqrt(r_max/g); cd: contact dynamics, md: molecular dynamics)";
-  command.add_option("--dt", o.dt, "Time step (default: 5e-3 for cd; for md, what is stable)")->group(group);
-  command
-      .add_option("--tolerance", o.tolerance,
-                  "Sweeps end when no force changes by more than this (default: 1e-6 for cd, 1e-7 for md)")
-      ->group(group);
-  command
-      .add_option("--sweeps", o.sweeps,
-                  "Largest number of sweeps per step (default: cd1 300, cd2 3000, md 1000)")
-      ->group(group);
-  command
-      .add_option("--alpha", o.alpha, "cd: fraction of an overlap that is removed per step (default: 0.1)")
-      ->group(group);
-  command.add_option("--restitution", o.restitution, "cd: coefficient of normal restitution (default: 0)")
-      ->group(group);
-  command
-      .add_option("--tangential-restitution", o.tangential_restitution,
-                  "cd: coefficient of tangential restitution (default: 0)")
-      ->group(group);
-  command
-      .add_option("--preset", o.preset,
-                  "md: stiffness 1.2e6 and damping 558 (stiff) or 7.7e4, as in the paper (paper)")
-      ->check(CLI::IsMember({"stiff", "paper"}))
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--stiffness", o.stiffness, "md: spring constant k of a contact")->group(group);
-  command.add_option("--damping", o.damping, "md: damping constant gamma of a contact")->group(group);
-  command.add_option("--damping-method", o.damping_method, "md: how damping is integrated in time")
-      ->check(CLI::IsMember({"automatic", "explicit", "implicit"}))
-      ->capture_default_str()
-      ->group(group);
-  command
-      .add_option("--residual", o.residual,
-                  "At rest means: forces balance to this (default: 1e-4 for cd, 1e-6 for md) ...")
-      ->group(group);
-  command
-      .add_option("--kinetic-energy", o.kinetic_energy,
-                  "... and the kinetic energy per disk is below this (default: 1e-12)")
-      ->group(group);
-  command.add_option("--time-limit", o.time_limit, "Largest simulated time (default: 6 sqrt(Ly/g))")
-      ->group(group);
 }
 
 }  // namespace
