@@ -15,6 +15,7 @@
 #include "apps/configuration.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/range/analyze.h"
 
@@ -22,9 +23,6 @@ namespace indet::app {
 namespace {
 
 constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
-/// Extremal states that differ by less than this, relative to max(1, ‖F‖) in mg, are the same state.
-constexpr double kSameState = 1e-6;
-
 struct CompareCommand {
   std::string packing;
   double tolerance = 1e-8;
@@ -57,7 +55,7 @@ void compare_states(const ForceRanges& expected, const ForceRanges& found, Eigen
   ++comparison.states;
   const double distance = (expected.states.row(first) - found.states.row(second)).norm();
   const double scale = std::max(expected.force_unit, expected.states.row(first).norm());
-  if (distance <= kSameState * scale) ++comparison.same_states;
+  if (distance <= tolerance::kSameState * scale) ++comparison.same_states;
 }
 
 MethodComparison compare(const ForceRanges& expected, const ForceRanges& found, double tolerance) {

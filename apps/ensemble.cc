@@ -140,13 +140,13 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   for (const std::string& file : o.files) open_packing(file);
   const Plan plan = make_plan(config);
   const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
-  if (!config.protocols.empty())
-    require_memory(sim::memory_estimate(config.scene.disks),
-                   fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
   const std::filesystem::path folder = o.folder;
   check_layout(folder);
   try_reading(member_paths({folder}, plan), read_member);
   if (o.dry_run) return list_members(plan, range, folder, context);
+  if (!config.protocols.empty())
+    require_memory(sim::memory_estimate(config.scene.disks),
+                   fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
   std::vector<std::filesystem::path> inputs(o.files.begin(), o.files.end());
   inputs.emplace_back(o.scene_file);
   claim_folder(folder, plan, replacement_rule(inputs, o.overwrite, context));

@@ -29,7 +29,7 @@ std::optional<Tally> natural_order_clp(const ForcePolytope& polytope) {
   Tally tally;
   for (const PolytopeBlock& block : polytope.blocks) {
     ClpSimplex model;
-    load(*block.set, model);
+    load(block.set(), model);
     model.primal();  // a feasible basis; its pivots do not count, as the start of the others' does not
     for (const Objective& objective : natural_objectives(polytope, block)) {
       for (const auto& [index, coefficient] : objective.on_edges)

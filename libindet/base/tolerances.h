@@ -9,7 +9,8 @@ namespace indet::tolerance {
 
 // Contacts.
 
-/// ε of the paper (Sec. III A): a contact slides if μR − |T| < ε mg and transmits nothing if R, |T| < ε mg.
+/// ε of the paper (Sec. III A): a contact slides if μR − |T| < ε and transmits nothing if R, |T| < ε, in
+/// the internal unit (mg, but for scenes whose named unit of force says little about them).
 /// Workable: 1e-12 … 1e-6; below 1e-12 rounding hides sliding contacts, above 1e-6 others are taken for
 /// sliding.
 inline constexpr double kSliding = 1e-9;
@@ -214,6 +215,18 @@ inline constexpr double kNewtonDecrement = 1e-9;
 
 /// A relative position of 1 counts in the last bin of a histogram: this much less than 1.
 inline constexpr double kLastBin = 1e-12;
+
+/// Extremal states of two methods that differ by less than this (relative to max(1, ‖F‖), mg) are the same.
+inline constexpr double kSameState = 1e-6;
+
+/// A standard deviation of R up to this (mg) is that of a force that is determined: nothing is told as a
+/// multiple of it.
+inline constexpr double kComparable = 1e-6;
+
+/// Bins of a histogram: as many as reach its end but for this part of a bin, and no narrower than
+/// kNarrowestBin (unit of the values).
+inline constexpr double kLastPartOfBin = 1e-9;
+inline constexpr double kNarrowestBin = 1e-12;
 
 // Verification.
 

@@ -51,7 +51,7 @@ void describe_sparsely(const EquilibriumProblem& problem, PolytopeBlock& block) 
   set->equations.resize(static_cast<Eigen::Index>(rows.size()), columns.cols());
   set->equations.setFromTriplets(kept.begin(), kept.end());
   set->right_hand_side = set->equations * block.view.offset;
-  block.set = block.view.set = set;
+  block.view.set = set;
 }
 
 }  // namespace

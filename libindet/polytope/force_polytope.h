@@ -26,11 +26,12 @@ const char* to_string(PolytopeStatus status);
 /// An independent part of F: the strengths x of some contacts' edges, coupled to each other and to no others.
 /// F is the product of its blocks and of the edges that are determined.
 struct PolytopeBlock {
-  std::shared_ptr<const FeasibleSet> set;  ///< full-dimensional
-  SlopeView view;                          ///< of that set
+  SlopeView view;          ///< of `set`, which is full-dimensional
   std::vector<int> edges;  ///< local index of x → index into ForcePolytope::problem.edges; ascending
   Basis lightest;          ///< the vertex of smallest total normal force
   bool unbounded = false;
+
+  const FeasibleSet& set() const { return *view.set; }
 };
 
 /// The polytope F = {F1 + Z z ∈ K} [19] of a packing, in dimensionless form.

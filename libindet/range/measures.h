@@ -27,7 +27,7 @@ struct Measures {
   SampleEstimate sample_R, sample_T;  ///< δR and δT of all contacts, estimated from a sample.
 };
 
-/// Distances of extremal states [24], dimensionless; NaN where one is missing.
+/// Distances of extremal states [24], in mg; NaN where one is missing.
 struct StateDistances {
   Eigen::VectorXd d_R, d_T;  ///< One entry a contact.
 };

@@ -43,15 +43,14 @@ void expect_consistent(const Packing& packing, const ForcePolytope& polytope) {
       x(block.edges) = block.view.slope.col(j);
       EXPECT_LE((c * polytope.problem.state(x).value()).norm(), 1e-11);
     }
-    EXPECT_EQ(block.view.set, block.set);
-    EXPECT_EQ(block.set->dim(), block.view.dim());
-    EXPECT_EQ(block.set->inequalities(), block.view.inequalities());
-    EXPECT_LE((block.set->equations * block.view.slope).norm(), 1e-12);
-    EXPECT_LE((block.set->equations * block.view.offset - block.set->right_hand_side).norm(), 1e-13);
-    EXPECT_EQ(oracle::solve_dense(Eigen::MatrixXd(block.set->equations),
-                                  Eigen::VectorXd::Zero(block.set->equations.rows()))
+    EXPECT_EQ(block.set().dim(), block.view.dim());
+    EXPECT_EQ(block.set().inequalities(), block.view.inequalities());
+    EXPECT_LE((block.set().equations * block.view.slope).norm(), 1e-12);
+    EXPECT_LE((block.set().equations * block.view.offset - block.set().right_hand_side).norm(), 1e-13);
+    EXPECT_EQ(oracle::solve_dense(Eigen::MatrixXd(block.set().equations),
+                                  Eigen::VectorXd::Zero(block.set().equations.rows()))
                   .rank,
-              block.set->equations.rows());
+              block.set().equations.rows());
   }
   EXPECT_EQ(dim, polytope.dim);
 }

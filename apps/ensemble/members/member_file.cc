@@ -34,10 +34,10 @@ void write_ensemble_part(Hdf5File& file, const Member& member, const MemberResul
   if (result.solver_d_R.size() > 0) {
     write_vector(
         file, "/ensemble/solver_d_R", result.solver_d_R,
-        {"1", "global indeterminacy of the normal force with the states that the solver happens to find"});
+        {"mg", "global indeterminacy of the normal force with the states that the solver happens to find"});
     write_vector(
         file, "/ensemble/solver_d_T", result.solver_d_T,
-        {"1",
+        {"mg",
          "global indeterminacy of the tangential force with the states that the solver happens to find"});
     write_counts(file, "/ensemble/solver_extremal_R", result.solver_extremal,
                  "states that the solver happens to find");

@@ -6,13 +6,14 @@
 #include <cmath>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 namespace {
 
 Series curve(const std::string& name, const GroupedValues& data, double low, double width, double high,
              Mark mark, int colour, bool thick, bool logarithmic) {
-  const int bins = std::max(1, static_cast<int>(std::ceil((high - low) / width - 1e-9)));
+  const int bins = std::max(1, static_cast<int>(std::ceil((high - low) / width - tolerance::kLastPartOfBin)));
   const Histogram h = histogram(data, low, width, bins, {.resamples = 100});
   Series series{.name = name, .x = {}, .y = {}, .error = {}, .mark = mark, .colour = colour, .thick = thick};
   for (std::size_t bin = 0; bin < h.density.size(); ++bin) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet {
 namespace {
 
@@ -29,7 +31,7 @@ double largest(const GroupedValues& data) {
 }
 
 double round_width(double span, int bins) {
-  const double raw = std::max(span / bins, 1e-12);
+  const double raw = std::max(span / bins, tolerance::kNarrowestBin);
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= raw) return factor * power;

@@ -7,6 +7,7 @@
 #include "apps/ensemble/presentation/curves.h"
 #include "apps/ensemble/presentation/samples.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/statistics/two_sample.h"
 
 namespace indet {
@@ -116,7 +117,8 @@ class Summary {
       for (std::size_t i = 0; i < values.values.size(); ++i) {
         const double difference =
             above == from ? values.values[i] : std::abs(values.values[i] - other.values[i]);
-        values.values[i] = unit.values[i] > 1e-6 ? difference / unit.values[i] : std::nan("");
+        values.values[i] =
+            unit.values[i] > tolerance::kComparable ? difference / unit.values[i] : std::nan("");
       }
       return text_of(grouped_mean(values), 2);
     };

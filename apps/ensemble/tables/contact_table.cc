@@ -50,14 +50,14 @@ std::vector<FlatTable::Column> contact_columns() {
       FlatTable::real("R", "mg", "normal force as simulated"),
       FlatTable::real("T", "mg", "tangential force as simulated")};
   for (const char* name : kObjectives) columns.push_back(FlatTable::real(name, "mg", "end of the range"));
-  columns.push_back(FlatTable::real("delta_R", "1", "local indeterminacy of the normal force"));
-  columns.push_back(FlatTable::real("delta_T", "1", "local indeterminacy of the tangential force"));
-  columns.push_back(FlatTable::real("d_R", "1", "global indeterminacy of the normal force"));
-  columns.push_back(FlatTable::real("d_T", "1", "global indeterminacy of the tangential force"));
+  columns.push_back(FlatTable::real("delta_R", "mg", "local indeterminacy of the normal force"));
+  columns.push_back(FlatTable::real("delta_T", "mg", "local indeterminacy of the tangential force"));
+  columns.push_back(FlatTable::real("d_R", "mg", "global indeterminacy of the normal force"));
+  columns.push_back(FlatTable::real("d_T", "mg", "global indeterminacy of the tangential force"));
   columns.push_back(
-      FlatTable::real("solver_d_R", "1", "d_R with the states that the solver happens to find"));
+      FlatTable::real("solver_d_R", "mg", "d_R with the states that the solver happens to find"));
   columns.push_back(
-      FlatTable::real("solver_d_T", "1", "d_T with the states that the solver happens to find"));
+      FlatTable::real("solver_d_T", "mg", "d_T with the states that the solver happens to find"));
   columns.push_back(FlatTable::real("R_star", "1", "place of R in its range"));
   columns.push_back(FlatTable::real("T_star", "1", "place of T in its range"));
   for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
