@@ -26,13 +26,14 @@
 #include "libindet/base/error.h"
 #include "libindet/lp/glpk_problem.h"
 #include "libsim/memory_estimate.h"
+#include "libsim/molecular_preset.h"
 #include "libsim/scene_toml.h"
 
 namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, members, preset = "stiff", uniform_seeds = "60";
+  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "60";
   std::optional<int> disks;
   std::optional<double> mu;
   EnsembleConfig config;
@@ -63,7 +64,7 @@ EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
   for (const std::string& file : o.files) config.files.emplace_back(file);
   // Files alone are an ensemble of their own.
   if (!o.files.empty() && o.protocol_names.empty() && !seeds_given) config.protocols.clear();
-  config.molecular_dynamics = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
+  config.molecular_dynamics = options_of(sim::molecular_preset_from(o.preset).value());
   config.solver_states = !o.no_solver_states;
   // Not more than there are.
   config.uniform_seeds = std::min(count_of(o.uniform_seeds),
@@ -213,8 +214,12 @@ Command add_ensemble(CLI::App& root) {
       ->check(CLI::ExistingFile);
   command->add_option("--disks", o->disks, "Number of disks (default: 95, or that of the scene)");
   command->add_option("--mu", o->mu, "Friction coefficient (default: 0.3, or that of the scene)");
-  command->add_option("--preset", o->preset, "md: the damping of stiff springs, or that of the paper")
-      ->check(CLI::IsMember({"stiff", "paper"}))
+  command
+      ->add_option(
+          "--preset", o->preset,
+          "md: stiffness and damping of contacts: 1.2e5, 7.7e4 (paper); 1.2e6, 7.7e4 (paper-overlap); "
+          "1.2e6, 558 (stiff)")
+      ->check(CLI::IsMember(sim::molecular_preset_names()))
       ->capture_default_str();
   command
       ->add_option("--samples", o->config.sampling.samples,

@@ -22,6 +22,7 @@
 #include "libindet/io/destination.h"
 #include "libindet/io/simulation_file.h"
 #include "libsim/memory_estimate.h"
+#include "libsim/molecular_preset.h"
 #include "libsim/scene_toml.h"
 
 namespace indet::app {
@@ -80,20 +81,20 @@ SimulationOptions simulation_options_of(const SimulateOptions& o, bool rigid, co
     for (const char* name : {"--preset", "--stiffness", "--damping", "--damping-method"})
       refuse(name, "md1 and md2");
     sim::ContactDynamicsOptions& cd = options.contact_dynamics;
-    if (o.protocol() == sim::Protocol::kCd2) cd = sim::from_rest_preset();
     set(cd.dt, o.dt);
     set(cd.tolerance, o.tolerance);
     set(cd.max_sweeps, o.sweeps);
+    set(cd.start_sweeps, o.start_sweeps);
     set(cd.law.alpha, o.alpha);
     set(cd.law.restitution_n, o.restitution);
     set(cd.law.restitution_t, o.tangential_restitution);
     set(cd.residual, o.residual);
   } else {
-    for (const char* name : {"--alpha", "--restitution", "--tangential-restitution"})
+    for (const char* name : {"--start-sweeps", "--alpha", "--restitution", "--tangential-restitution"})
       refuse(name, "cd1 and cd2");
     options.simulator = sim::Simulator::kMolecularDynamics;
     sim::MolecularDynamicsOptions& md = options.molecular_dynamics;
-    md = o.preset == "paper" ? sim::paper_preset() : sim::stiff_preset();
+    md = options_of(sim::molecular_preset_from(o.preset).value());
     set(md.k, o.stiffness);
     set(md.gamma, o.damping);
     set(md.dt, o.dt);

@@ -1,5 +1,7 @@
 #include "apps/simulate_arguments.h"
 
+#include "libsim/molecular_preset.h"
+
 namespace indet::app {
 
 void add_scene_options(CLI::App& command, SimulateOptions& o) {
@@ -45,17 +47,21 @@ void add_scene_options(CLI::App& command, SimulateOptions& o) {
 void add_method_options(CLI::App& command, SimulateOptions& o) {
   const char* group =
       "Method (in units of mg, r_max, sqrt(r_max/g); cd: contact dynamics, md: molecular dynamics)";
-  command.add_option("--dt", o.dt, "Time step (default: 5e-3 for cd; for md, what is stable)")->group(group);
+  command.add_option("--dt", o.dt, "Time step (default: 1e-3 for cd; for md, what is stable)")->group(group);
   command
       .add_option("--tolerance", o.tolerance,
                   "Sweeps end when no force changes by more than this (default: 1e-6 for cd, 1e-7 for md)")
       ->group(group);
-  command
-      .add_option("--sweeps", o.sweeps,
-                  "Largest number of sweeps per step (default: cd1 300, cd2 3000, md 1000)")
+  command.add_option("--sweeps", o.sweeps, "Largest number of sweeps per step (default: cd 100, md 1000)")
       ->group(group);
   command
-      .add_option("--alpha", o.alpha, "cd: fraction of an overlap that is removed per step (default: 0.1)")
+      .add_option("--start-sweeps", o.start_sweeps,
+                  "cd: the same for steps that start from no forces, as the first of cd2 (default: 100000)")
+      ->group(group);
+  command
+      .add_option(
+          "--alpha", o.alpha,
+          "cd: fraction of an overlap that is removed per step (default: 0, overlaps stay as they are)")
       ->group(group);
   command.add_option("--restitution", o.restitution, "cd: coefficient of normal restitution (default: 0)")
       ->group(group);
@@ -64,9 +70,11 @@ void add_method_options(CLI::App& command, SimulateOptions& o) {
                   "cd: coefficient of tangential restitution (default: 0)")
       ->group(group);
   command
-      .add_option("--preset", o.preset,
-                  "md: stiffness 1.2e6 and damping 558 (stiff) or 7.7e4, as in the paper (paper)")
-      ->check(CLI::IsMember({"stiff", "paper"}))
+      .add_option(
+          "--preset", o.preset,
+          "md: stiffness and damping of contacts: 1.2e5, 7.7e4 (paper); 1.2e6, 7.7e4 (paper-overlap); "
+          "1.2e6, 558 (stiff)")
+      ->check(CLI::IsMember(sim::molecular_preset_names()))
       ->capture_default_str()
       ->group(group);
   command.add_option("--stiffness", o.stiffness, "md: spring constant k of a contact")->group(group);

@@ -21,9 +21,9 @@ struct SimulateOptions {
   std::optional<double> density, mu, wall_mu, force_unit, width, height, funnel_angle, jitter;
   std::string container;
   // Simulator.
-  std::string preset = "stiff", damping_method = "automatic";
+  std::string preset = "paper", damping_method = "automatic";
   std::optional<double> stiffness, damping, dt, tolerance, alpha, restitution, tangential_restitution;
-  std::optional<int> sweeps;
+  std::optional<int> sweeps, start_sweeps;
   std::optional<double> residual, kinetic_energy, time_limit;
   // Run.
   double every = 0;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "libsim/molecular_preset.h"
 #include "libsim/scene.h"
 #include "libsim/simulate.h"
 #include "libsim/static_solver.h"
@@ -50,6 +51,7 @@ Scene bed_of(int disks) {
 SimulationOptions stiff_springs() {
   SimulationOptions options;
   options.simulator = Simulator::kMolecularDynamics;
+  options.molecular_dynamics = options_of(MolecularPreset::kStiff);
   options.time_limit = 1;
   return options;
 }

@@ -56,8 +56,9 @@ void ImplicitStepper::step() {
   double change = 0;
   for (const ContactState& contact : previous_) change = std::max(change, contact.change);
   const double tolerance = std::max(options_.tolerance * force_unit_, options_.loosening * change);
+  const int most_sweeps = starts_from_zero_ ? options_.start_sweeps : options_.max_sweeps;
   const SweepReport sweeps =
-      gauss_seidel_.solve(solver_, bodies_, {.max_sweeps = options_.max_sweeps, .tolerance = tolerance * dt});
+      gauss_seidel_.solve(solver_, bodies_, {.max_sweeps = most_sweeps, .tolerance = tolerance * dt});
   ++report_.steps;
   report_.capped_steps += sweeps.converged ? 0 : 1;
   report_.sweeps += sweeps.sweeps;
@@ -104,7 +105,7 @@ void ImplicitStepper::find_contacts() {
       add_contact(i, j, dx / distance, dy / distance, distance - touching, world_.friction.disk);
     }
   }
-  carry_over();
+  starts_from_zero_ = !carry_over();
   for (std::size_t i = 0; i < solver_.size(); ++i) {
     if (options_.springs) {
       const SpringLaw& law = *options_.springs;
@@ -150,13 +151,14 @@ void ImplicitStepper::add_contact(int a, int b, double nx, double ny, double gap
   contacts_.push_back({.a = a, .b = b, .nx = nx, .ny = ny, .gap = gap, .mu = mu});
 }
 
-void ImplicitStepper::carry_over() {
+bool ImplicitStepper::carry_over() {
   // Both lists are sorted by a; within one a walls come first, in the order of the wall, then disks.
   const auto before = [](const ContactState& p, const ContactState& q) {
     const auto rank = [](const ContactState& c) { return std::tuple(c.a, c.b >= 0, c.b >= 0 ? c.b : -c.b); };
     return rank(p) < rank(q);
   };
   const double dt = options_.dt;
+  bool any = false;
   auto old = previous_.begin();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     while (old != previous_.end() && before(*old, contacts_[i])) ++old;
@@ -166,7 +168,9 @@ void ImplicitStepper::carry_over() {
     solver_[i].p_t = old->T * dt;
     contacts_[i].spring = old->spring;
     contacts_[i].R = old->R;
+    any = true;
   }
+  return any;
 }
 
 void ImplicitStepper::finish() {

@@ -28,7 +28,10 @@ namespace indet::sim {
 ///     C = 1/(dt (γ + k dt)),  b_n = k g/(γ + k dt) (g ≤ 0), g/dt (g > 0),  b_t = k_t ξ/(γ_t + k_t dt).
 /// This is the implicit Euler step of the spring law (force_law.h; k_t = k, γ_t = γ), stable for any dt.
 struct RigidLaw {
-  double alpha = 0.1;        ///< Fraction of an overlap that is removed a step, in [0, 1].
+  /// Fraction of an overlap that is removed a step, in [0, 1]. 0: overlaps are left alone. Above, the disks
+  /// creep apart for thousands of steps, which rebuilds the forces and holds contacts at their Coulomb limit
+  /// (docs/decisions/overlaps-left-alone.md).
+  double alpha = 0;
   double restitution_n = 0;  ///< e_n in [0, 1].
   double restitution_t = 0;  ///< e_t in [0, 1].
 };
@@ -37,7 +40,10 @@ struct ImplicitOptions {
   double dt = 0;                     ///< Scene's own unit of time.
   std::optional<SpringLaw> springs;  ///< Without: rigid.
   RigidLaw rigid;
-  int max_sweeps = 300;
+  int max_sweeps = 100;  ///< A step.
+  /// The same for a step in which no contact carries a force from the step before: there, sweeps start from
+  /// F = 0, far from a solution.
+  int start_sweeps = 100;
   double tolerance =
       tolerance::kSweepChange;  ///< Largest change of a contact force in a sweep, in units of force (mg).
   /// The tolerance is loosened to this fraction of the largest change of a contact force in the previous
@@ -61,14 +67,15 @@ class ImplicitStepper : public Stepper {
   void step();
   void find_contacts();
   void add_contact(int a, int b, double nx, double ny, double gap, double mu);
-  /// Takes impulses and springs over from the contacts of the previous step.
-  void carry_over();
+  /// Takes impulses and springs over from the contacts of the previous step; returns whether there were any.
+  bool carry_over();
   void finish();
 
   World world_;
   ImplicitOptions options_;
   NeighbourList neighbours_;
   double force_unit_ = 1;
+  bool starts_from_zero_ = true;  ///< No contact of this step carries an impulse.
   double reach_ = 0;
   double near_gap_ = 0;  ///< Gaps up to this count as possible contacts even at rest.
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int kExplicitStride = 50;
 /// Steps that a collision of two undamped disks is resolved with, at least.
 constexpr double kStepsPerCollision = 40;
-/// Default step of the implicit law: 1/64 of the time γ/k in which overdamped contacts relax, for `paper`.
+/// Default step of the implicit law: 1/640 of the time γ/k in which overdamped contacts relax, for `paper`.
 constexpr double kImplicitStep = 1e-3;
 
 SpringLaw law_of(const MolecularDynamicsOptions& options, const Units& units) {
@@ -43,12 +43,23 @@ double step_of(const World& world, const SimulationOptions& options, const Units
   return is_implicit(md) ? kImplicitStep : explicit_step(world, md, units);
 }
 
+/// Contacts that transmit force and are at their Coulomb limit, by the paper's ε.
+int sliding_contacts(const Packing& packing) {
+  const double epsilon = tolerance::kSliding * packing.internal_force_unit();
+  return static_cast<int>(
+      std::count_if(packing.contacts.begin(), packing.contacts.end(), [&](const Contact& contact) {
+        return contact.mu > 0 && contact.R >= epsilon &&
+               contact.mu * contact.R - std::abs(contact.T) < epsilon;
+      }));
+}
+
 using Reason = std::optional<std::string>;
 
 Reason rigid_defect(const ContactDynamicsOptions& cd) {
   if (!(cd.dt > 0) || !std::isfinite(cd.dt)) return fmt::format("dt must be positive, but is {}", cd.dt);
   if (!(cd.tolerance >= 0)) return fmt::format("tolerance must not be negative, but is {}", cd.tolerance);
   if (cd.max_sweeps < 1) return fmt::format("sweeps must be at least 1, but is {}", cd.max_sweeps);
+  if (cd.start_sweeps < 1) return fmt::format("start sweeps must be at least 1, but is {}", cd.start_sweeps);
   if (!(cd.law.alpha >= 0 && cd.law.alpha <= 1))
     return fmt::format("alpha must be in [0, 1], but is {}", cd.law.alpha);
   for (const double e : {cd.law.restitution_n, cd.law.restitution_t}) {
@@ -81,20 +92,6 @@ Reason spring_defect(const World& world, const MolecularDynamicsOptions& md) {
 
 }  // namespace
 
-ContactDynamicsOptions from_rest_preset() {
-  ContactDynamicsOptions options;
-  options.max_sweeps = 3000;
-  return options;
-}
-
-MolecularDynamicsOptions stiff_preset() { return {}; }
-
-MolecularDynamicsOptions paper_preset() {
-  MolecularDynamicsOptions options;
-  options.gamma = 7.7e4;
-  return options;
-}
-
 std::optional<std::string> SimulationOptions::defect(const World& world) const {
   if (world.size() == 0) return "there are no disks";
   if (!(time_limit > 0)) return fmt::format("the time limit must be positive, but is {}", time_limit);
@@ -114,6 +111,7 @@ std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<Cont
                                                              .springs = {},
                                                              .rigid = cd.law,
                                                              .max_sweeps = cd.max_sweeps,
+                                                             .start_sweeps = cd.start_sweeps,
                                                              .tolerance = cd.tolerance});
   }
   const MolecularDynamicsOptions& md = options.molecular_dynamics;
@@ -124,6 +122,7 @@ std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<Cont
                                                            .springs = law,
                                                            .rigid = {},
                                                            .max_sweeps = md.max_sweeps,
+                                                           .start_sweeps = md.max_sweeps,
                                                            .tolerance = md.tolerance,
                                                            .loosening = tolerance::kSweepLoosening});
 }
@@ -163,10 +162,12 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
     }
   }
   for (const Contact& contact : result.packing.contacts) {
-    result.mean_overlap +=
-        std::max(0.0, -contact.gap) / result.packing.max_radius() / result.packing.contact_count();
+    const double overlap = std::max(0.0, -contact.gap) / result.packing.max_radius();
+    result.mean_overlap += overlap / result.packing.contact_count();
+    result.largest_overlap = std::max(result.largest_overlap, overlap);
     result.mean_force += contact.R / unit / result.packing.contact_count();
   }
+  result.raw_sliding = sliding_contacts(result.raw);
   return result;
 }
 

@@ -16,17 +16,15 @@ namespace indet::sim {
 
 /// Contact dynamics: rigid disks. Times in units of √(r_max/g), forces in mg (world.h).
 struct ContactDynamicsOptions {
-  double dt = 5e-3;
+  double dt = 1e-3;
   double tolerance = tolerance::kSweepChange;  ///< Largest change of a contact force in the last sweep.
-  int max_sweeps = 300;                        ///< A step; fewer than 100 are not enough to settle.
+  int max_sweeps = 100;                        ///< A step.
+  /// A step, until one is solved to the tolerance (ImplicitOptions::start_sweeps). Matters where disks in
+  /// contact start from F = 0, as in cd2.
+  int start_sweeps = 100000;
   RigidLaw law;
   double residual = tolerance::kRestForce;  ///< A state is static if its raw forces balance to this.
 };
-
-/// For runs that start from F = 0 at rest, cd2: without impulses to start from, 300 sweeps leave the first
-/// steps so far from their solution that the disks are thrown against each other, which locks in forces (mean
-/// R 11.7 instead of 10 mg).
-ContactDynamicsOptions from_rest_preset();
 
 /// How damping forces enter a step of molecular dynamics.
 enum class Damping {
@@ -35,10 +33,11 @@ enum class Damping {
   kImplicit,   ///< From the velocities after the step, springs too; any dt.
 };
 
-/// Molecular dynamics: springs with dashpots. k in mg/r_max, γ in mg/r_max √(r_max/g).
+/// Molecular dynamics: springs with dashpots. k in mg/r_max, γ in mg/r_max √(r_max/g). The default is the
+/// preset `paper` (molecular_preset.h).
 struct MolecularDynamicsOptions {
-  double k = 1.2e6;
-  double gamma = 558;
+  double k = 1.2e5;
+  double gamma = 7.7e4;
   Damping damping = Damping::kAutomatic;
   double dt = 0;  ///< 0: half the stability bound (explicit), 1e-3 (implicit).
   double tolerance = tolerance::kFineSweepChange;  ///< Of the implicit damping: largest change of a contact
@@ -48,10 +47,6 @@ struct MolecularDynamicsOptions {
   /// 1e-7 where k = 1.2e6.
   double residual = tolerance::kRestSpringForce;
 };
-
-/// γ = 558: two disks of mean mass collide with a restitution of 0.3. γ = 7.7e4: the paper's damping.
-MolecularDynamicsOptions stiff_preset();
-MolecularDynamicsOptions paper_preset();
 
 struct SimulationOptions {
   Simulator simulator = Simulator::kContactDynamics;
@@ -75,7 +70,10 @@ struct Simulation {
   double dt = 0;  ///< That was used; units of time.
   bool implicit_damping = false;
   double mean_overlap = 0;  ///< Mean of −gap over the contacts of `packing`, gaps > 0 counting as 0; r_max.
-  double mean_force = 0;    ///< Mean R of `packing`, mg.
+  double largest_overlap = 0;  ///< r_max.
+  int raw_sliding =
+      0;  ///< Contacts of `raw` with R ≥ ε and μR − |T| < ε (tolerance::kSliding), as in the paper.
+  double mean_force = 0;  ///< Mean R of `packing`, mg.
 };
 
 /// Lets a world come to rest. `contacts`: what the contacts remember (empty: nothing). Throws InputError with

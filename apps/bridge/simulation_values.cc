@@ -49,11 +49,13 @@ SimulationRecord record_of(const sim::Simulation& simulation, const sim::Simulat
                     {"cone_violation", polished.cone_violation},
                     {"distance", polished.distance},
                     {"sliding", polished.sliding},
+                    {"raw_sliding", simulation.raw_sliding},
                     {"sliding_kept", polished.sliding_kept ? 1 : 0},
                     {"opened", polished.opened},
                     {"implicit_damping", simulation.implicit_damping ? 1 : 0},
                     {"mean_R", simulation.mean_force},
-                    {"mean_overlap", simulation.mean_overlap}};
+                    {"mean_overlap", simulation.mean_overlap},
+                    {"largest_overlap", simulation.largest_overlap}};
   return record;
 }
 
@@ -123,6 +125,7 @@ std::string to_toml(const sim::SimulationOptions& options) {
     line("dt", cd.dt);
     line("tolerance", cd.tolerance);
     line("sweeps", cd.max_sweeps);
+    line("start_sweeps", cd.start_sweeps);
     line("alpha", cd.law.alpha);
     line("restitution", cd.law.restitution_n);
     line("tangential_restitution", cd.law.restitution_t);

@@ -43,11 +43,13 @@ TEST(Determinism, ContactDynamics) {
 }
 
 TEST(Determinism, ExplicitMolecularDynamics) {
-  EXPECT_EQ(digest_after(150000, molecular_dynamics(stiff_preset(), 1)), 17931077677174720669u);
+  EXPECT_EQ(digest_after(150000, molecular_dynamics(options_of(MolecularPreset::kStiff), 1)),
+            17931077677174720669u);
 }
 
 TEST(Determinism, ImplicitMolecularDynamics) {
-  EXPECT_EQ(digest_after(4000, molecular_dynamics(paper_preset(), 1)), 12141414561585980964u);
+  EXPECT_EQ(digest_after(4000, molecular_dynamics(options_of(MolecularPreset::kPaperOverlap), 1)),
+            12141414561585980964u);
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST(ExplicitStepper, SpringsSurviveNewNeighbourLists) {
   // A sliding disk runs far enough that its lists are made anew; its friction must not notice.
   World world = disk_on_incline(0, 0.3);
   world.vx[0] = 3;
-  const World after = run(world, molecular_dynamics(stiff_preset(), 1), 2);
+  const World after = run(world, molecular_dynamics(options_of(MolecularPreset::kStiff), 1), 2);
   EXPECT_NEAR(after.vx[0], 3 - 0.3 * 2, 2e-3);
 }
 
@@ -130,7 +130,7 @@ TEST(ExplicitStepper, ContinuesFromItsStateToTheSameBytes) {
   scene.disks = 21;
   scene.columns = 4;
   const World start = build(scene);
-  const SimulationOptions options = molecular_dynamics(stiff_preset(), 1);
+  const SimulationOptions options = molecular_dynamics(options_of(MolecularPreset::kStiff), 1);
   const auto whole = make_stepper(start, {}, options);
   const auto half = make_stepper(start, {}, options);
   half->advance(100000);

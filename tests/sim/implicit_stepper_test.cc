@@ -58,7 +58,8 @@ TEST(ImplicitStepper, MomentumIsConservedWithoutWallsAndGravity) {
     for (int i = 0; i < w.size(); ++i) sum += w.mass[i] * Vector2(w.vx[i], w.vy[i]);
     return sum;
   };
-  for (const SimulationOptions& options : {contact_dynamics(1), molecular_dynamics(stiff_preset(), 1)}) {
+  for (const SimulationOptions& options :
+       {contact_dynamics(1), molecular_dynamics(options_of(MolecularPreset::kStiff), 1)}) {
     const World after = run(world, options, 2);
     EXPECT_LT(after.kinetic_energy(), world.kinetic_energy());
     EXPECT_LT((momentum(after) - momentum(world)).norm(), 1e-11);
@@ -122,7 +123,7 @@ TEST(ImplicitStepper, ImplicitSpringsMatchExplicitOnesWhereBothAreStable) {
   add_disk(world, {1, 1});
   add_disk(world, {3.01, 1});
   add_disk(world, {2.2, 2.75}, 0.9);
-  SimulationOptions explicit_damping = molecular_dynamics(paper_preset(), 1);
+  SimulationOptions explicit_damping = molecular_dynamics(options_of(MolecularPreset::kPaperOverlap), 1);
   explicit_damping.molecular_dynamics.damping = Damping::kExplicit;
   const World exact = run(world, explicit_damping, 1);
   const auto error = [&](double dt) {

@@ -32,7 +32,9 @@ void PrintTo(Kind kind, std::ostream* stream) { *stream << name_of(kind); }
 
 SimulationOptions options_of(Kind kind, double time_limit) {
   if (kind == Kind::kContactDynamics) return contact_dynamics(time_limit);
-  return molecular_dynamics(kind == Kind::kStiff ? stiff_preset() : paper_preset(), time_limit);
+  return molecular_dynamics(
+      kind == Kind::kStiff ? options_of(MolecularPreset::kStiff) : options_of(MolecularPreset::kPaperOverlap),
+      time_limit);
 }
 
 /// Mechanics of a few disks: the answers are the same for all methods, up to their time step and stiffness.
@@ -216,7 +218,7 @@ TEST(Simulate, FramesComeAtTheirInterval) {
 
 TEST(Simulate, UnstableTimeStepIsRefusedWithItsBound) {
   const World world = build(Scene{});
-  SimulationOptions options = molecular_dynamics(paper_preset(), 1);
+  SimulationOptions options = molecular_dynamics(options_of(MolecularPreset::kPaperOverlap), 1);
   options.molecular_dynamics.damping = Damping::kExplicit;
   options.molecular_dynamics.dt = 1e-4;
   ASSERT_TRUE(options.defect(world).has_value());

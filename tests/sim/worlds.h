@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "libsim/molecular_preset.h"
 #include "libsim/scene.h"
 #include "libsim/simulate.h"
 

@@ -136,8 +136,6 @@ sim::SimulationOptions simulation_options_of(const EnsembleConfig& config, Proto
   if (is_simulated_by(protocol, sim::Simulator::kMolecularDynamics)) {
     options.simulator = sim::Simulator::kMolecularDynamics;
     options.molecular_dynamics = config.molecular_dynamics;
-  } else if (protocol == Protocol::kCd2) {
-    options.contact_dynamics = sim::from_rest_preset();
   }
   return options;
 }

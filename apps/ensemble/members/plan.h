@@ -19,7 +19,7 @@ struct EnsembleConfig {
   std::int64_t first_seed = 0;
   std::int64_t seeds = 60;
   std::vector<sim::Protocol> protocols = {sim::kSimulated.begin(), sim::kSimulated.end()};
-  sim::MolecularDynamicsOptions molecular_dynamics = sim::stiff_preset();
+  sim::MolecularDynamicsOptions molecular_dynamics;
   std::vector<std::filesystem::path> files;  ///< Packings that are there already.
   sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
   /// Packings of each protocol that are sampled uniformly too: those of the first seeds, the first files.

@@ -24,7 +24,9 @@ const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
     {"unbounded", "minima and maxima without limit"}};
 
 /// Attributes of /simulation and /sampling that become columns of another name.
-constexpr std::array<AttributeColumn, 15> kAttributes = {{
+constexpr std::array<AttributeColumn, 17> kAttributes = {{
+    {"raw_sliding", "/simulation", "raw_sliding", "1",
+     "sliding contacts of the raw state, as the paper counts them; those that transmit nothing do not count"},
     {"time", "/simulation", "time", "sqrt(r_max/g)", "simulated time"},
     {"steps", "/simulation", "steps", "1", "time steps"},
     {"kinetic_energy", "/simulation", "kinetic_energy", "mg r_max", "kinetic energy per disk at the end"},
@@ -32,6 +34,7 @@ constexpr std::array<AttributeColumn, 15> kAttributes = {{
     {"residual", "/simulation", "residual", "mg", "imbalance after the polish"},
     {"polish_distance", "/simulation", "distance", "mg", "distance of raw and polished forces"},
     {"mean_overlap", "/simulation", "mean_overlap", "r_max", "mean overlap"},
+    {"largest_overlap", "/simulation", "largest_overlap", "r_max", "largest overlap"},
     {"r", "/sampling", "r", "mg", "radius of the ensemble of perturb-and-resolve [38]"},
     {"r_error", "/sampling", "r_error", "mg", "standard error of r over the samples"},
     {"r_spread", "/sampling", "spread", "mg", "standard deviation of the distance from the centre"},
