@@ -23,8 +23,8 @@ const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
     {"failed", "minima and maxima not found"},
     {"unbounded", "minima and maxima without limit"}};
 
-/// Attributes of /simulation and /sampling that become columns of another name.
-constexpr std::array<AttributeColumn, 15> kAttributes = {{
+/// Attributes of other groups that become columns, mostly of another name.
+constexpr std::array<AttributeColumn, 18> kAttributes = {{
     {"time", "/simulation", "time", "sqrt(r_max/g)", "simulated time"},
     {"steps", "/simulation", "steps", "1", "time steps"},
     {"kinetic_energy", "/simulation", "kinetic_energy", "mg r_max", "kinetic energy per disk at the end"},
@@ -40,14 +40,19 @@ constexpr std::array<AttributeColumn, 15> kAttributes = {{
     {"accepted", "/sampling", "accepted", "1", "solutions accepted"},
     {"worst_sample_residual", "/sampling", "worst_residual", "mg",
      "imbalance of the worst accepted solution"},
+    {"paper_walks", "/ensemble", "paper_walks", "1", "walks of the paper's method"},
+    {"paper_failures", "/ensemble", "paper_failures", "1",
+     "of these, failed ones: other than dim F constraints are active at their end"},
+    {"paper_imprecise", "/ensemble", "paper_imprecise", "1", "minima and maxima that they do not prove"},
     {"worst_raw_sample_residual", "/sampling", "worst_raw_residual", "mg", "the same before the polish"},
 }};
 
 /// Seconds.
-constexpr std::array<AttributeColumn, 4> kTimings = {{
+constexpr std::array<AttributeColumn, 5> kTimings = {{
     {"simulate", "/provenance/timings", "simulate", "s", "simulation"},
     {"analyze", "/provenance/timings", "analyze", "s", "ranges and extremal states"},
     {"sample", "/provenance/timings", "sample", "s", "perturb and resolve"},
+    {"paper_walk", "/provenance/timings", "paper_walk", "s", "the paper's walk"},
     {"sample_uniform", "/provenance/timings", "sample_uniform", "s", "uniform sampling, and its comparison"},
 }};
 
