@@ -58,8 +58,9 @@ ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
     choice.seed = arguments.seed;
     return choice;
   }
-  if (arguments.seed != AnalysisArguments().seed)
-    throw UsageError("--seed has no effect without --contacts sample:K, whose contacts it draws");
+  if (arguments.seed != AnalysisArguments().seed && arguments.neighbour != "random")
+    throw UsageError(
+        "--seed has no effect without --contacts sample:K or --neighbour random, which draw by chance");
   if (text == "all") return choice;
   choice.kind = ContactChoice::Kind::kList;
   choice.list = parse_list(text, contacts);
@@ -97,7 +98,9 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
           "gives a confidence interval for the mean over all; or a list like 3,7,12-20 (numbered from 0)")
       ->type_name("all|sample:K|LIST")
       ->capture_default_str();
-  command.add_option("--seed", arguments.seed, "Seed of the random numbers of --contacts sample:K")
+  command
+      .add_option("--seed", arguments.seed,
+                  "Seed of the random numbers of --contacts sample:K and of --neighbour random")
       ->check(not_negative())
       ->capture_default_str();
   command
@@ -114,15 +117,29 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
           "--accuracy fast")
       ->check(CLI::IsMember({"auto", "canonical", "solver"}))
       ->capture_default_str();
+  command
+      .add_option("--neighbour", arguments.neighbour,
+                  "pivoting-paper: where a walk goes on. first (the default): to the first neighbour found "
+                  "that is better, as the paper says; best: to the best of all; random: to the first, in an "
+                  "order drawn with --seed")
+      ->check(CLI::IsMember(names_of(kNeighbourRules)));
+  command
+      .add_option("--start", arguments.start,
+                  "pivoting-paper: where a walk starts. common (the default): each from the one first "
+                  "extremal point; minimum: the maximum of a force from its minimum")
+      ->check(CLI::IsMember(names_of(kWalkStarts)));
 }
 
 bool is_exact(const AnalysisArguments& arguments) { return arguments.accuracy == "exact"; }
 
-Method parse_method(const std::string& name) {
-  for (const Method method : {Method::kPivotingPaper, Method::kPivotingTableau}) {
-    if (name == to_string(method)) return method;
-  }
-  return Method::kLp;
+void require_no_walk(const AnalysisArguments& arguments) {
+  const auto require_none = [](const char* name, const std::optional<std::string>& value) {
+    if (!value) return;
+    throw UsageError(fmt::format(
+        "{} {} has no effect without --method pivoting-paper, whose walks it is about", name, *value));
+  };
+  require_none("--neighbour", arguments.neighbour);
+  require_none("--start", arguments.start);
 }
 
 AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const Context& context) {
@@ -130,6 +147,9 @@ AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const C
   options.contacts = parse_contacts(arguments, contacts);
   options.formulation = parse_formulation(arguments.formulation);
   if (arguments.states != "auto") options.canonical_states = arguments.states == "canonical";
+  if (arguments.neighbour) options.paper.neighbour = value_of(*arguments.neighbour, kNeighbourRules);
+  if (arguments.start) options.paper.start = value_of(*arguments.start, kWalkStarts);
+  options.paper.seed = static_cast<std::int64_t>(arguments.seed);
   options.threads = context.thread_count();
   options.progress = context.progress();
   return options;

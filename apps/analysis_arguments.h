@@ -1,8 +1,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/command.h"
 #include "libindet/range/analyze.h"
@@ -16,6 +20,7 @@ struct AnalysisArguments {
   std::uint64_t seed = 1;
   std::string formulation = "auto";
   std::string states = "auto";
+  std::optional<std::string> neighbour, start;  ///< of the walks of pivoting-paper
 };
 
 /// Which levels of --accuracy a subcommand offers.
@@ -27,8 +32,22 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
 /// True if every result is to be proven in rational arithmetic after the analysis.
 bool is_exact(const AnalysisArguments& arguments);
 
-/// "lp", "pivoting-paper" or "pivoting-tableau", as CLI11 has checked.
-Method parse_method(const std::string& name);
+/// Throws UsageError if options say how to walk, where nothing does: the method is not pivoting-paper.
+void require_no_walk(const AnalysisArguments& arguments);
+
+/// The names of the values of an enumeration that has to_string.
+template <class Enum, std::size_t n>
+std::vector<std::string> names_of(const std::array<Enum, n>& values) {
+  std::vector<std::string> names;
+  for (const Enum value : values) names.emplace_back(to_string(value));
+  return names;
+}
+
+/// The value of that name, of which CLI11 has checked that it is one.
+template <class Enum, std::size_t n>
+Enum value_of(const std::string& name, const std::array<Enum, n>& values) {
+  return *std::find_if(values.begin(), values.end(), [&](Enum value) { return name == to_string(value); });
+}
 
 /// For a packing with this number of contacts. Throws UsageError where options contradict each other or name
 /// a contact that there is not.

@@ -134,7 +134,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                               {"band", json_number(estimate.band)}};
     }
   }
-  if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges.paper);
+  if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges);
   if (ranges.largest_norm >= 0)
     json["largest_norm"] = json_number(ranges.norm[ranges.largest_norm] / ranges.force_unit);
   for (const MovingDisk& disk : moving_disks(ranges)) {
@@ -290,7 +290,8 @@ int run(const AnalyzeCommand& options, const Context& context) {
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
   claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
-  analysis.method = parse_method(options.method);
+  analysis.method = value_of(options.method, kMethods);
+  if (analysis.method != Method::kPivotingPaper) require_no_walk(options.arguments);
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
     throw UsageError(
         "--formulation has no effect with --method pivoting-tableau, which solves no linear programs");
@@ -328,7 +329,7 @@ Command add_analyze(CLI::App& root) {
           "--method", options->method,
           "How the extrema are found. lp: by linear programs; pivoting-paper: by the paper's walk from one "
           "extremal point to the next, as published; pivoting-tableau: by the same walk, made fast")
-      ->check(CLI::IsMember({"lp", "pivoting-paper", "pivoting-tableau"}))
+      ->check(CLI::IsMember(names_of(kMethods)))
       ->capture_default_str();
   add_analysis_options(*command, options->arguments, Levels::kWithExact);
   return {command, [options](const Context& context) { return run(*options, context); }};

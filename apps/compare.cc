@@ -22,7 +22,6 @@
 namespace indet::app {
 namespace {
 
-constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
 struct CompareCommand {
   std::string packing;
   double tolerance = 1e-8;
@@ -118,7 +117,7 @@ nlohmann::json to_json(const Entry& entry) {
                                      {"expected", fmt::format("{}", d.expected)},
                                      {"found", fmt::format("{}", d.found)}});
   }
-  if (r.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(r.paper);
+  if (r.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(r);
   return json;
 }
 
@@ -140,6 +139,11 @@ void print_table(const std::vector<Entry>& entries) {
   print_row("", entries, [](const Entry& e) { return to_string(e.ranges.method); });
   print_row("formulation", entries,
             [](const Entry& e) { return e.ranges.formulation.empty() ? "-" : e.ranges.formulation; });
+  print_row("neighbour, start of the walks", entries, [](const Entry& e) -> std::string {
+    if (e.ranges.method != Method::kPivotingPaper) return "-";
+    const PaperOptions& options = e.ranges.paper_options;
+    return fmt::format("{}, {}", to_string(options.neighbour), to_string(options.start));
+  });
   print_row("certified", entries, count(&ForceRanges::certified));
   print_row("imprecise", entries, count(&ForceRanges::imprecise));
   print_row("failed", entries, count(&ForceRanges::failed));

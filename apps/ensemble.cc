@@ -33,7 +33,7 @@ namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "60";
+  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "60", paper_walk = "60";
   std::optional<int> disks;
   std::optional<double> mu;
   EnsembleConfig config;
@@ -44,12 +44,12 @@ struct EnsembleCommand {
 };
 
 /// "all", or a number.
-std::int64_t count_of(const std::string& text) {
+std::int64_t count_of(const char* option, const std::string& text) {
   std::int64_t count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (text == "all") return std::numeric_limits<std::int64_t>::max();
   if (error != std::errc() || end != text.data() + text.size() || count < 0)
-    throw UsageError(fmt::format("--uniform-seeds {}: expected a number, or all", text));
+    throw UsageError(fmt::format("{} {}: expected a number, or all", option, text));
   return count;
 }
 
@@ -67,8 +67,9 @@ EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
   config.molecular_dynamics = options_of(sim::molecular_preset_from(o.preset).value());
   config.solver_states = !o.no_solver_states;
   // Not more than there are.
-  config.uniform_seeds = std::min(count_of(o.uniform_seeds),
-                                  std::max(config.seeds, static_cast<std::int64_t>(config.files.size())));
+  const auto most = std::max(config.seeds, static_cast<std::int64_t>(config.files.size()));
+  config.uniform_seeds = std::min(count_of("--uniform-seeds", o.uniform_seeds), most);
+  config.paper_walk_seeds = std::min(count_of("--paper-walk", o.paper_walk), most);
   return config;
 }
 
@@ -222,6 +223,16 @@ Command add_ensemble(CLI::App& root) {
       ->check(CLI::IsMember(sim::molecular_preset_names()))
       ->capture_default_str();
   command
+      ->add_option("--alpha", o->config.contact_dynamics.law.alpha,
+                   "cd: fraction of an overlap that is removed per step (0: overlaps stay as they are)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--start-sweeps", o->config.contact_dynamics.start_sweeps,
+                   "cd2: largest number of sweeps of the first step, which starts from no forces")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
       ->add_option("--samples", o->config.sampling.samples,
                    "Number of solutions of perturb-and-resolve per packing (0: none)")
       ->check(not_negative())
@@ -234,6 +245,11 @@ Command add_ensemble(CLI::App& root) {
   command
       ->add_option("--uniform-seeds", o->uniform_seeds,
                    "Also sample the packings of this many seeds (and files) uniformly; all, or 0 for none")
+      ->capture_default_str();
+  command
+      ->add_option("--paper-walk", o->paper_walk,
+                   "Also find dR and dT of the packings of this many seeds (and files) by the walk of the "
+                   "paper; all, or 0 for none")
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the extremal states that the solver happens to find");

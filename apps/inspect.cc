@@ -18,6 +18,7 @@
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/packing_input.h"
+#include "apps/paper_work.h"
 #include "apps/ranges_json.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/file_kind.h"
@@ -164,6 +165,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                            {"max_delta_R", json_number(largest(r.delta_R))},
                            {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
                            {"max_delta_T", json_number(largest(r.delta_T))}});
+    if (r.method == Method::kPivotingPaper) json["ranges"]["paper"] = describe_paper_work(r);
   }
   return json;
 }

@@ -6,11 +6,20 @@
 
 namespace indet::app {
 
-nlohmann::json describe_paper_work(const PaperWork& work) {
-  nlohmann::json json = {{"walks", work.walk_count()},         {"failures", work.failures()},
-                         {"extremal_points", work.points},     {"unexpected_points", work.unexpected},
-                         {"neighbours", work.neighbours},      {"sliding_left", work.sliding_left},
-                         {"starts", nlohmann::json::object()}, {"ends", nlohmann::json::object()}};
+nlohmann::json describe_paper_work(const ForceRanges& ranges) {
+  const PaperOptions& options = ranges.paper_options;
+  const PaperWork& work = ranges.paper;
+  nlohmann::json json = {{"neighbour_rule", to_string(options.neighbour)},
+                         {"walk_start", to_string(options.start)},
+                         {"walks", work.walk_count()},
+                         {"failures", work.failures()},
+                         {"extremal_points", work.points},
+                         {"unexpected_points", work.unexpected},
+                         {"neighbours", work.neighbours},
+                         {"sliding_left", work.sliding_left},
+                         {"starts", nlohmann::json::object()},
+                         {"ends", nlohmann::json::object()}};
+  if (options.neighbour == NeighbourRule::kRandom) json["walk_seed"] = options.seed;
   for (int end = 0; end < kInteriorEnds; ++end)
     json["starts"][to_string(static_cast<InteriorEnd>(end))] = work.starts[static_cast<std::size_t>(end)];
   for (int end = 0; end < kWalkEnds; ++end)

@@ -2,12 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "libindet/range/paper_work.h"
+#include "libindet/range/force_ranges.h"
 
 namespace indet::app {
 
-/// What the paper's method did, and its failures by their kind.
-nlohmann::json describe_paper_work(const PaperWork& work);
+/// How the paper's method was done, what it did, and its failures by their kind.
+nlohmann::json describe_paper_work(const ForceRanges& ranges);
 void print_paper_work(const PaperWork& work);
 
 }  // namespace indet::app

@@ -11,8 +11,16 @@ std::string describe_sliding(std::int64_t sliding, std::int64_t non_transmitting
 }
 
 std::string describe_method(const ForceRanges& ranges) {
-  return ranges.method == Method::kLp ? "linear programs (" + ranges.formulation + ")"
-                                      : to_string(ranges.method);
+  switch (ranges.method) {
+    case Method::kLp:
+      return "linear programs (" + ranges.formulation + ")";
+    case Method::kPivotingPaper:
+      return fmt::format("{} (neighbour: {}, start: {})", to_string(ranges.method),
+                         to_string(ranges.paper_options.neighbour), to_string(ranges.paper_options.start));
+    case Method::kPivotingTableau:
+      break;
+  }
+  return to_string(ranges.method);
 }
 
 }  // namespace indet::app

@@ -21,7 +21,6 @@ namespace {
 /// In the order of the values of Outcome.
 const EnumNames kOutcomes = {"optimal", "unbounded", "imprecise", "failed", "not_requested"};
 
-constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
 constexpr std::array kStatuses = {PolytopeStatus::kBounded, PolytopeStatus::kUnbounded,
                                   PolytopeStatus::kPoint, PolytopeStatus::kEmpty};
 constexpr std::array kChoices = {ContactChoice::Kind::kAll, ContactChoice::Kind::kSample,
@@ -29,6 +28,8 @@ constexpr std::array kChoices = {ContactChoice::Kind::kAll, ContactChoice::Kind:
 
 /// Attributes that are stored as text: all values of their type.
 constexpr const auto& values_of(Method) { return kMethods; }
+constexpr const auto& values_of(NeighbourRule) { return kNeighbourRules; }
+constexpr const auto& values_of(WalkStart) { return kWalkStarts; }
 constexpr const auto& values_of(PolytopeStatus) { return kStatuses; }
 constexpr const auto& values_of(ContactChoice::Kind) { return kChoices; }
 
@@ -123,9 +124,11 @@ class FieldReader {
 
  private:
   bool is_stored(const Field& field) const {
-    // A file of all contacts does not say so, and one of an earlier version not by which method.
+    // A file of all contacts does not say so, and one of an earlier version not by which method, or how.
     const bool may_lack = is(field.group, "/ranges") && is(field.name, "contacts");
-    const bool may_be_older = is(field.group, kWork) && is(field.name, "method");
+    const bool may_be_older =
+        is(field.group, kWork) &&
+        (is(field.name, "method") || is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
     if (may_lack || may_be_older) return file_.has_attribute(field.group, field.name);
     return is_present(field.presence, ranges_, 1);
   }
@@ -268,6 +271,9 @@ ForceRanges read_ranges(const Hdf5File& file) {
   ranges.value.resize(static_cast<Eigen::Index>(file.shape("/contacts/body_a", 1)[0]), 4);
   FieldReader reader(file, ranges);
   visit_fields(ranges, reader);
+  // Earlier versions walked in one way only.
+  if (ranges.method == Method::kPivotingPaper && !file.has_attribute(kWork, "neighbour_rule"))
+    ranges.paper_options = {.neighbour = NeighbourRule::kBest, .start = WalkStart::kMinimum};
   if (ranges.choice == ContactChoice::Kind::kAll) ranges.requested = static_cast<int>(ranges.value.rows());
   check_request(file, ranges);
   check_pointers(file, ranges);

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/dense/lu.h"
 
@@ -13,32 +17,64 @@ namespace {
 /// Walks at N = 95 take some tens of steps.
 constexpr std::int64_t kStepLimit = 100000;
 
-/// Where the d edges of the polytope at an extremal point lead.
-struct Neighbours {
-  Eigen::MatrixXd direction;  ///< d × d, one edge a column
-  Eigen::VectorXd length;     ///< +inf where nothing ends the edge
-  std::vector<int> stop;      ///< the inequality that ends it, or −1
+/// The extremal point where a walk stands.
+struct ExtremalPoint {
+  Eigen::VectorXd x;
+  std::vector<char> is_active;  ///< by inequality: 1 for those of the basis
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
 };
 
-Neighbours find_neighbours(const SlopeView& view, const Eigen::VectorXd& x,
-                           const std::vector<char>& is_active,
-                           const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
-  Neighbours result;
-  result.direction = factors.inverse();
-  const Eigen::MatrixXd rate = view.slope * result.direction;
-  result.length = Eigen::VectorXd::Constant(view.dim(), kInfinity);
-  result.stop.assign(static_cast<std::size_t>(view.dim()), -1);
-  for (Eigen::Index j = 0; j < view.dim(); ++j) {
-    for (Eigen::Index k = 0; k < rate.rows(); ++k) {
-      const double approach = -rate(k, j);
-      if (approach <= tolerance::kStepRate || is_active[static_cast<std::size_t>(k)] != 0) continue;
-      const double slack = std::max(0.0, x[k]);
-      if (slack >= result.length[j] * approach) continue;
-      result.length[j] = slack / approach;
-      result.stop[static_cast<std::size_t>(j)] = static_cast<int>(k);
-    }
+/// A neighbour of an extremal point.
+struct Neighbour {
+  int relaxed = -1;  ///< place in the basis of the inequality that was relaxed; −1: there is none
+  int stop = -1;     ///< the inequality that ends the edge, or −1
+  double gain = 0;   ///< of the objective, up to the neighbour
+  Eigen::VectorXd step;
+};
+
+/// Along the edge of the polytope on which the inequality at place `relaxed` of the basis is relaxed.
+/// `slope`: of the objective along it.
+Neighbour follow_edge(const SlopeView& view, const ExtremalPoint& point, int relaxed, double slope) {
+  const Eigen::VectorXd direction = point.factors.solve(Eigen::VectorXd::Unit(view.dim(), relaxed));
+  const Eigen::VectorXd rate = view.slope * direction;
+  double length = kInfinity;
+  Neighbour neighbour;
+  neighbour.relaxed = relaxed;
+  for (Eigen::Index k = 0; k < rate.size(); ++k) {
+    const double approach = -rate[k];
+    if (approach <= tolerance::kStepRate || point.is_active[static_cast<std::size_t>(k)] != 0) continue;
+    const double slack = std::max(0.0, point.x[k]);
+    if (slack >= length * approach) continue;
+    length = slack / approach;
+    neighbour.stop = static_cast<int>(k);
   }
-  return result;
+  neighbour.gain = slope * length;
+  neighbour.step = length * direction;
+  return neighbour;
+}
+
+/// The neighbour to go to: the first that gains more than `least_gain` or, if `best`, the best of these.
+/// `order`: places in the basis, as their inequalities are relaxed in turn. Counts the neighbours looked at.
+Neighbour choose_neighbour(const SlopeView& view, const ExtremalPoint& point, const Objective& objective,
+                           const std::vector<int>& order, bool best, double least_gain,
+                           std::int64_t& looked_at) {
+  const Eigen::VectorXd slope = point.factors.transpose().solve(objective.along_z);
+  Neighbour chosen;
+  chosen.gain = least_gain;
+  for (const int relaxed : order) {
+    ++looked_at;
+    if (slope[relaxed] <= tolerance::kImprovingSlope) continue;
+    Neighbour neighbour = follow_edge(view, point, relaxed, slope[relaxed]);
+    if (neighbour.gain <= chosen.gain) continue;
+    chosen = std::move(neighbour);
+    if (!best) break;
+  }
+  return chosen;
+}
+
+/// Puts numbers into an order drawn at random.
+void shuffle(std::vector<int>& numbers, Random& random) {
+  for (std::size_t i = numbers.size(); i > 1; --i) std::swap(numbers[i - 1], numbers[random.below(i)]);
 }
 
 bool is_singular(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
@@ -47,6 +83,18 @@ bool is_singular(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
 }
 
 }  // namespace
+
+const char* to_string(NeighbourRule rule) {
+  switch (rule) {
+    case NeighbourRule::kFirst:
+      return "first";
+    case NeighbourRule::kBest:
+      return "best";
+    case NeighbourRule::kRandom:
+      return "random";
+  }
+  return "?";
+}
 
 const char* to_string(WalkEnd end) {
   switch (end) {
@@ -66,53 +114,51 @@ const char* to_string(WalkEnd end) {
   return "?";
 }
 
-NeighbourSearch::NeighbourSearch(const SlopeView& view, double epsilon) : view_(view), epsilon_(epsilon) {}
+NeighbourSearch::NeighbourSearch(const SlopeView& view, double epsilon, NeighbourRule rule,
+                                 std::uint64_t seed)
+    : view_(view), epsilon_(epsilon), rule_(rule), seed_(seed) {}
 
-NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& start) const {
+NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& start,
+                                    std::uint64_t number) const {
   NeighbourWalk walk;
   walk.basis = start;
   const Vertex vertex = compute_vertex(view_, start);
   Eigen::VectorXd z = vertex.z;
-  Eigen::VectorXd x = vertex.x;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors = vertex.active;
-  std::vector<char> is_active(static_cast<std::size_t>(view_.inequalities()), 0);
-  for (const int k : start) is_active[static_cast<std::size_t>(k)] = 1;
+  ExtremalPoint point{vertex.x, std::vector<char>(static_cast<std::size_t>(view_.inequalities()), 0),
+                      vertex.active};
+  for (const int k : start) point.is_active[static_cast<std::size_t>(k)] = 1;
   double value = objective.along_z.dot(z);
+  std::vector<int> order(static_cast<std::size_t>(view_.dim()));
+  std::iota(order.begin(), order.end(), 0);
+  Random random(seed_, number);
   const auto end_at = [&](WalkEnd end) {
     walk.end = end;
     std::sort(walk.basis.begin(), walk.basis.end());
     return walk;
   };
   for (;;) {
-    if (walk.steps > 0) factors.compute(view_.slope(walk.basis, Eigen::all));
-    if (is_singular(factors)) return end_at(WalkEnd::kDirectionsLost);
-    const bool has_drifted = x(walk.basis).cwiseAbs().maxCoeff() > epsilon_;
-    const bool has_more = (x.array() < epsilon_).count() > view_.dim();
+    if (walk.steps > 0) point.factors.compute(view_.slope(walk.basis, Eigen::all));
+    if (is_singular(point.factors)) return end_at(WalkEnd::kDirectionsLost);
+    const bool has_drifted = point.x(walk.basis).cwiseAbs().maxCoeff() > epsilon_;
+    const bool has_more = (point.x.array() < epsilon_).count() > view_.dim();
     walk.unexpected += has_more ? 1 : 0;
-    walk.neighbours += view_.dim();
-    const Neighbours neighbours = find_neighbours(view_, x, is_active, factors);
-    const Eigen::VectorXd slope = neighbours.direction.transpose() * objective.along_z;
-    int best = -1;
-    double best_gain = tolerance::kImprovingGain * std::max(1.0, std::abs(value));
-    for (int j = 0; j < view_.dim(); ++j) {
-      if (slope[j] <= tolerance::kImprovingSlope || slope[j] * neighbours.length[j] <= best_gain) continue;
-      best = j;
-      best_gain = slope[j] * neighbours.length[j];
-    }
-    if (best < 0) {
+    if (rule_ == NeighbourRule::kRandom) shuffle(order, random);
+    const Neighbour next =
+        choose_neighbour(view_, point, objective, order, rule_ == NeighbourRule::kBest,
+                         tolerance::kImprovingGain * std::max(1.0, std::abs(value)), walk.neighbours);
+    if (next.relaxed < 0) {
       if (has_drifted) return end_at(WalkEnd::kFewerActive);
       return end_at(has_more ? WalkEnd::kMoreActive : WalkEnd::kNoneBetter);
     }
-    const int stop = neighbours.stop[static_cast<std::size_t>(best)];
-    if (stop < 0) return end_at(WalkEnd::kPolytopeEdgeWithoutEnd);
+    if (next.stop < 0) return end_at(WalkEnd::kPolytopeEdgeWithoutEnd);
     if (walk.steps == kStepLimit) return end_at(WalkEnd::kStepLimit);
-    z += neighbours.length[best] * neighbours.direction.col(best);
-    x = view_.offset + view_.slope * z;
+    z += next.step;
+    point.x = view_.offset + view_.slope * z;
     value = objective.along_z.dot(z);
-    int& left = walk.basis[static_cast<std::size_t>(best)];
-    is_active[static_cast<std::size_t>(left)] = 0;
-    is_active[static_cast<std::size_t>(stop)] = 1;
-    left = stop;
+    int& relaxed = walk.basis[static_cast<std::size_t>(next.relaxed)];
+    point.is_active[static_cast<std::size_t>(relaxed)] = 0;
+    point.is_active[static_cast<std::size_t>(next.stop)] = 1;
+    relaxed = next.stop;
     ++walk.steps;
   }
 }

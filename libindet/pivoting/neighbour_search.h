@@ -1,11 +1,23 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "libindet/lp/feasible_set.h"
 #include "libindet/lp/vertex.h"
 
 namespace indet {
+
+/// Which of the better neighbours a walk goes to, and so on which of all optimal extremal points it ends
+/// (docs/decisions/paper-walk.md).
+enum class NeighbourRule : std::uint8_t {
+  kFirst,  ///< the first, in the order of the list of active inequalities
+  kBest,   ///< the best of all
+  kRandom  ///< the first, in an order drawn anew at every extremal point
+};
+inline constexpr std::array kNeighbourRules = {NeighbourRule::kFirst, NeighbourRule::kBest,
+                                               NeighbourRule::kRandom};
+const char* to_string(NeighbourRule rule);  ///< "first", "best", "random".
 
 /// How a walk over extremal points ended.
 enum class WalkEnd : std::uint8_t {
@@ -30,26 +42,31 @@ struct NeighbourWalk {
 
 /// The paper's search (Sec. II G): at an extremal point each of the d active inequalities is relaxed in turn.
 /// The one direction that respects the other d − 1 is built from the active constraints; it leads along an
-/// edge of the polytope to a neighbour, where another inequality becomes active. The walk goes to the best
-/// neighbour, until none is better. Non-transmitting contacts are two active inequalities, like two sliding
-/// contacts (Sec. II E).
+/// edge of the polytope to a neighbour, where another inequality becomes active. "If any one of the
+/// neighboring points is better, we move there": the list of active inequalities is gone through until a
+/// neighbour is better, and the inequality that became active takes the place of the one that was relaxed.
+/// The walk ends where none is better. Non-transmitting contacts are two active inequalities, like two
+/// sliding contacts (Sec. II E).
 ///
-/// Directions of all these edges are the columns of S_N⁻¹, so a step is one inversion (d³) and one product (K
-/// d²). The slope of the objective along an edge would tell beforehand which neighbours are worse; that
-/// thought is the simplex method's (tableau_solver.h), and the paper looks at all of them. As there, the
-/// point is moved along edges, so rounding adds up, and nothing is done about points at which more than d
-/// inequalities are active: failures are reported as they come.
+/// Directions of the edges are columns of S_N⁻¹, so a step is one factorisation (2/3 d³) and, for each edge
+/// that is followed, one solution and one product (2 d² + 2 K d). A neighbour that lies where the objective
+/// does not grow is seen to be no better from the slope along its edge, which is then not followed; the walk
+/// is the same. The point is moved along edges, so rounding adds up, and nothing is done about points at
+/// which more than d inequalities are active: failures are reported as they come.
 class NeighbourSearch {
  public:
-  /// `set` must outlive the search. `epsilon`: an inequality below it is active (force units).
-  NeighbourSearch(const SlopeView& view, double epsilon);
+  /// `view` must outlive the search. `epsilon`: an inequality below it is active (force units). `seed`: of
+  /// kRandom.
+  NeighbourSearch(const SlopeView& view, double epsilon, NeighbourRule rule, std::uint64_t seed = 1);
 
-  /// From a vertex to one that maximises the objective.
-  NeighbourWalk walk(const Objective& objective, const Basis& start) const;
+  /// From a vertex to one that maximises the objective. Walks of one `number` draw the same random numbers.
+  NeighbourWalk walk(const Objective& objective, const Basis& start, std::uint64_t number = 0) const;
 
  private:
   const SlopeView& view_;
   double epsilon_;
+  NeighbourRule rule_;
+  std::uint64_t seed_;
 };
 
 }  // namespace indet

@@ -51,6 +51,7 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   SearchOptions search;
   search.formulation = options.formulation.value_or(choose_formulation(largest));
   search.method = options.method;
+  search.paper = options.paper;
   search.lp = options.lp;
   search.threads = options.threads;
   search.canonical_states = options.canonical_states;

@@ -9,6 +9,7 @@
 #include "libindet/range/contact_choice.h"
 #include "libindet/range/force_ranges.h"
 #include "libindet/range/method.h"
+#include "libindet/range/paper_options.h"
 
 namespace indet {
 
@@ -21,7 +22,8 @@ enum class Accuracy : std::uint8_t {
 struct AnalyzeOptions {
   Method method = Method::kLp;
   std::optional<Formulation>
-      formulation;  ///< of kLp; nothing: chosen by size (docs/decisions/formulation.md)
+      formulation;     ///< of kLp; nothing: chosen by size (docs/decisions/formulation.md)
+  PaperOptions paper;  ///< of kPivotingPaper
   LpOptions lp;
   ContactChoice contacts;
   bool canonical_states =

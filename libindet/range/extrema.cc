@@ -79,6 +79,7 @@ class ExtremaFinder {
     extrema_.states.resize(0, 2 * count);
     extrema_.rays.resize(0, 2 * count);
     extrema_.method = options.method;
+    extrema_.paper_options = options.paper;
     if (options.method != Method::kPivotingTableau) extrema_.formulation = to_string(options.formulation);
     extrema_.solves = polytope.solves;
     extrema_.pivots = polytope.pivots;

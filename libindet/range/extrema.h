@@ -12,6 +12,7 @@
 #include "libindet/range/extremal_search.h"
 #include "libindet/range/method.h"
 #include "libindet/range/outcome.h"
+#include "libindet/range/paper_options.h"
 #include "libindet/range/paper_work.h"
 
 namespace indet {
@@ -40,8 +41,9 @@ struct SolverStates {
 /// What the search did.
 struct SearchWork {
   Method method = Method::kLp;
-  std::string formulation;  ///< Of the linear programs, "" where a tableau did without.
-  PaperWork paper;          ///< Only of Method::kPivotingPaper.
+  std::string formulation;     ///< Of the linear programs, "" where a tableau did without.
+  PaperOptions paper_options;  ///< Only of Method::kPivotingPaper.
+  PaperWork paper;             ///< The same.
   std::int64_t solves = 0, pivots = 0;
   std::int64_t determined = 0;  ///< Objectives without a search: the same in every state.
 };

@@ -117,7 +117,7 @@ SearchResult search_extrema(const SlopeView& view, const std::vector<Component>&
   ObjectiveTable table(components, options.canonical_states);
   SearchRounds rounds(view, options, table);
   if (options.method == Method::kPivotingPaper) {
-    walk_to_values(view, checker, start, table, rounds);
+    walk_to_values(view, checker, start, options.paper, table, rounds);
   } else {
     find_values(checker, start, table, rounds);
   }

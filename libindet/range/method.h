@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace indet {
@@ -12,6 +13,8 @@ enum class Method : std::uint8_t {
                     ///< (pivoting/neighbour_search.h)
   kPivotingTableau  ///< the same walk on a dense tableau (pivoting/tableau_solver.h)
 };
+
+inline constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
 
 /// "lp", "pivoting-paper", "pivoting-tableau".
 const char* to_string(Method method);

@@ -17,7 +17,8 @@ bool has_vertex(WalkEnd end) {
 
 TaskResult walk_to_value(const NeighbourSearch& search, const OptimalityChecker& checker,
                          std::int64_t objective, const Basis& start) {
-  const NeighbourWalk walk = search.walk(checker.signed_objective(objective), start);
+  const NeighbourWalk walk =
+      search.walk(checker.signed_objective(objective), start, static_cast<std::uint64_t>(objective));
   TaskResult result;
   result.objective = objective;
   if (has_vertex(walk.end)) {
@@ -39,8 +40,9 @@ TaskResult walk_to_value(const NeighbourSearch& search, const OptimalityChecker&
 }  // namespace
 
 void walk_to_values(const SlopeView& view, const OptimalityChecker& checker, const Basis& start,
-                    ObjectiveTable& table, SearchRounds& rounds) {
-  const NeighbourSearch search(view, tolerance::kActive);
+                    const PaperOptions& options, ObjectiveTable& table, SearchRounds& rounds) {
+  const NeighbourSearch search(view, tolerance::kActive, options.neighbour,
+                               static_cast<std::uint64_t>(options.seed));
   const auto close = [](ObjectiveProgress& known) { known.failed = !known.optimal; };
   for (const bool is_maximum : {false, true}) {
     std::vector<std::int64_t> objectives;
@@ -49,8 +51,9 @@ void walk_to_values(const SlopeView& view, const OptimalityChecker& checker, con
     }
     const auto task = [&](std::int64_t objective) {
       const std::int64_t minimum = objective - 1;
-      const bool has_minimum = is_maximum && std::as_const(table)[minimum].optimal;
-      return walk_to_value(search, checker, objective, has_minimum ? table.best_basis(minimum) : start);
+      const bool from_minimum =
+          is_maximum && options.start == WalkStart::kMinimum && std::as_const(table)[minimum].optimal;
+      return walk_to_value(search, checker, objective, from_minimum ? table.best_basis(minimum) : start);
     };
     rounds.run_independent(objectives, task, close);
   }

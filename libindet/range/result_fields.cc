@@ -36,6 +36,9 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.choice == ContactChoice::Kind::kSample;
     case Presence::kPaper:
       return ranges.method == Method::kPivotingPaper;
+    case Presence::kRandom:
+      return ranges.method == Method::kPivotingPaper &&
+             ranges.paper_options.neighbour == NeighbourRule::kRandom;
     case Presence::kWhereRows:
       return row_count > 0;
   }

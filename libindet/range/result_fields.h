@@ -28,6 +28,7 @@ enum class Presence : std::uint8_t {
   kSubset,    ///< where not all contacts were asked for
   kSample,    ///< where a sample of contacts was
   kPaper,     ///< where the method is kPivotingPaper
+  kRandom,    ///< where that goes to a neighbour by chance
   kWhereRows  ///< where the table has rows
 };
 
@@ -233,6 +234,10 @@ void visit_work(Part& r, Visit& visit) {
             r.formulation);
   attribute("solves", "searches for an optimum", Presence::kAlways, r.solves);
   attribute("pivots", "steps of these", Presence::kAlways, r.pivots);
+  attribute("neighbour_rule", "which better neighbour a walk goes to: first, best, random", Presence::kPaper,
+            r.paper_options.neighbour);
+  attribute("walk_start", "where a walk starts: common, minimum", Presence::kPaper, r.paper_options.start);
+  attribute("walk_seed", "seed of the order of the neighbours", Presence::kRandom, r.paper_options.seed);
   // In the order of InteriorEnd and of WalkEnd.
   constexpr std::array<const char*, kInteriorEnds> kStarts = {"start_simulated", "start_unknown",
                                                               "start_outside", "start_tight_corner"};

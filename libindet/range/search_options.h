@@ -6,6 +6,7 @@
 #include "libindet/lp/lp_solver.h"
 #include "libindet/pivoting/pivot_rule.h"
 #include "libindet/range/method.h"
+#include "libindet/range/paper_options.h"
 
 namespace indet {
 
@@ -13,6 +14,7 @@ struct SearchOptions {
   Method method = Method::kLp;
   Formulation formulation = Formulation::kDual;     ///< of kLp, and of the states of kPivotingPaper
   PivotRule pivot_rule = PivotRule::kSteepestEdge;  ///< of kPivotingTableau
+  PaperOptions paper;                               ///< of kPivotingPaper
   LpOptions lp;
   int threads = 1;
   /// Take the state of smallest `weight` on each optimal face, so that every method gives the same one; else

@@ -102,10 +102,84 @@ class Method(program.ProgramTest):
     def test_options_that_would_have_no_effect_are_refused(self):
         packing = self.packing(program.groove())
         for options in [["--method", "pivoting-tableau", "--formulation", "edge"], ["--seed", "3"],
-                        ["--contacts", "0", "--seed", "3"]]:
+                        ["--contacts", "0", "--seed", "3"], ["--neighbour", "first"], ["--start", "common"],
+                        ["--method", "pivoting-tableau", "--neighbour", "best"],
+                        ["--method", "pivoting-paper", "--neighbour", "best", "--seed", "3"]]:
             done = self.run_indet("analyze", packing, *options, status=2)
             self.assertIn(options[-2], done.stderr)
             self.assertEqual(self.files(), ["p", "p.h5"])
+
+
+class Walk(program.ProgramTest):
+    """--neighbour and --start of pivoting-paper."""
+
+    def walked(self, *options, packing="pile.h5"):
+        """How a file of the walk tells its options: the file itself, JSON, inspect; and its dR, dT."""
+        arguments = ["analyze", packing, "--method", "pivoting-paper", "--extremal-states", "solver", *options, "-o", "w.h5",
+                     "--overwrite"]
+        report = json.loads(self.run_indet(*arguments, "--json").stdout)["paper"]
+        inspected = json.loads(self.run_indet("inspect", "w.h5", "--json").stdout)["ranges"]["paper"]
+        self.assertEqual(report, inspected)
+        shown = self.run_indet("inspect", "w.h5").stdout
+        with h5py.File(self.folder / "w.h5") as file:
+            work = dict(file["provenance/work"].attrs)
+            mg = file["parameters"].attrs["mg"]
+            vertex, states = file["ranges/vertex"][()], file["extremal/states"][()]
+            distances = [file[f"ranges/{name}"][()] for name in ("d_R", "d_T")]
+            for lowest, distance in zip((0, 2), distances):
+                np.testing.assert_allclose(
+                    distance, np.linalg.norm(states[vertex[:, lowest + 1]] - states[vertex[:, lowest]], axis=1) / mg, atol=1e-9)
+        self.assertEqual((work["neighbour_rule"], work["walk_start"]), (report["neighbour_rule"], report["walk_start"]))
+        self.assertEqual(work.get("walk_seed"), report.get("walk_seed"))
+        self.assertIn(f"pivoting-paper (neighbour: {work['neighbour_rule']}, start: {work['walk_start']})", shown)
+        self.run_indet("verify", "w.h5")
+        return (work["neighbour_rule"], work["walk_start"], work.get("walk_seed")), np.array(distances)
+
+    def test_the_options_are_told_wherever_the_method_is_and_lead_to_other_states(self):
+        self.run_indet("simulate", "--protocol", "md1", "--disks", "25", "--seed", "2", "--quiet", "-o", "pile.h5")
+        told, as_written = self.walked()
+        self.assertEqual(told, ("first", "common", None))
+        np.testing.assert_array_equal(self.walked("--neighbour", "first", "--start", "common")[1], as_written)
+        others = [as_written]
+        for options, expected in [(["--neighbour", "best"], ("best", "common", None)),
+                                  (["--neighbour", "best", "--start", "minimum"], ("best", "minimum", None)),
+                                  (["--start", "minimum"], ("first", "minimum", None)),
+                                  (["--neighbour", "random"], ("random", "common", 1)),
+                                  (["--neighbour", "random", "--seed", "7"], ("random", "common", 7))]:
+            told, distances = self.walked(*options)
+            self.assertEqual(told, expected)
+            for other in others:
+                self.assertFalse(np.allclose(distances, other), options)
+            others.append(distances)
+
+    def test_a_configuration_file_has_them(self):
+        self.packing(program.pyramid())
+        (self.folder / "c.toml").write_text('[analyze]\nmethod = "pivoting-paper"\nneighbour = "best"\nstart = "minimum"\n')
+        self.run_indet("--config", "c.toml", "analyze", "p.h5", "-o", "r.h5")
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual(file["provenance/work"].attrs["neighbour_rule"], "best")
+            self.assertEqual(file["provenance/work"].attrs["walk_start"], "minimum")
+        done = self.run_indet("--config", "c.toml", "analyze", "p.h5", "--method", "lp", "-o", "s.h5", status=2)
+        self.assertIn("--neighbour best has no effect without --method pivoting-paper", done.stderr)
+        (self.folder / "c.toml").write_text('[analyze]\nneighbour = "nearest"\n')
+        done = self.run_indet("--config", "c.toml", "analyze", "p.h5", "-o", "s.h5", status=3)
+        self.assertIn("c.toml:2: neighbour", done.stderr)
+
+    def test_compare_walks_as_it_is_told(self):
+        packing = self.packing(program.pyramid())
+        done = self.run_indet("compare", packing)
+        self.assertRegex(done.stdout, r"(?m)^neighbour, start of the walks +- +first, common +-$")
+        report = json.loads(self.run_indet("compare", packing, "--neighbour", "best", "--start", "minimum", "--json").stdout)
+        paper = report["methods"][1]["paper"]
+        self.assertEqual((paper["neighbour_rule"], paper["walk_start"]), ("best", "minimum"))
+        self.assertEqual(paper["neighbours"], paper["extremal_points"] * report["dim"])
+
+    def test_a_file_that_does_not_tell_went_to_the_best_neighbour_from_the_minimum(self):
+        self.run_indet("analyze", self.packing(program.pyramid()), "--method", "pivoting-paper", "-o", "r.h5")
+        with h5py.File(self.folder / "r.h5", "r+") as file:
+            for name in ("neighbour_rule", "walk_start"):
+                del file["provenance/work"].attrs[name]
+        self.assertIn("neighbour: best, start: minimum", self.run_indet("inspect", "r.h5").stdout)
 
 
 if __name__ == "__main__":

@@ -62,6 +62,9 @@ class Completion(program.ProgramTest):
         self.assertEqual(self.complete("indet", "analyze", "--formulation", ""), {"auto", "nullspace", "dual", "edge"})
         self.assertEqual(self.complete("indet", "analyze", "--method", "p"), {"pivoting-paper", "pivoting-tableau"})
         self.assertEqual(self.complete("indet", "compare", "--accuracy", ""), {"fast", "standard"})
+        for command in ("analyze", "compare"):
+            self.assertEqual(self.complete("indet", command, "--neighbour", ""), {"first", "best", "random"})
+            self.assertEqual(self.complete("indet", command, "--start", ""), {"common", "minimum"})
         self.assertEqual(self.complete("indet", "export", "p.h5", "--format", "s"), {"svg"})
         self.assertEqual(self.complete("indet", "completion", ""), {"bash"})
 

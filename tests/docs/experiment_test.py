@@ -20,7 +20,7 @@ class Experiment(unittest.TestCase):
     def test_the_picture_is_that_of_the_experiment(self):
         with tempfile.TemporaryDirectory() as folder:
             for command in (["ensemble", "--seeds", "60", "--samples", "0", "--uniform-seeds", "0", "--no-solver-states",
-                             "-o", folder], ["report", folder]):
+                             "--paper-walk", "0", "-o", folder], ["report", folder]):
                 done = subprocess.run([INDET, *command], capture_output=True, text=True, timeout=1700, check=False)
                 self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIsNone(difference(SHOWN, pathlib.Path(folder) / "figures/fig07.svg"))

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "apps/ensemble/presentation/samples.h"
 
 namespace indet {
 namespace {
@@ -32,6 +35,8 @@ EnsembleTables some_ensemble(int disks, double mu) {
   }
   return tables;
 }
+
+const Protocols kAllOfThem = {sim::kSimulated.begin(), sim::kSimulated.end()};
 
 std::set<std::string> verdicts(const EnsembleTables& tables) {
   std::set<std::string> result;
@@ -66,6 +71,44 @@ TEST(Comparison, HasNoVerdictIfOnlySomePackingsAreOfThePaper) {
   EXPECT_EQ(reason_for_no_verdict(tables),
             "The paper's numbers are for N = 95 and μ = 0.3; here N = 95 and μ = 0.3 … 0.5.");
   EXPECT_EQ(verdicts(tables), std::set<std::string>{""});
+}
+
+TEST(Comparison, CountsTheWalksThatEndOtherThanExpected) {
+  EnsembleTables tables = some_ensemble(95, 0.3);
+  const auto row_of_walks = [&] {
+    std::vector<Comparison> found;
+    for (const Comparison& row : compare_with_paper(tables)) {
+      if (row.paper == "about 1 %") found.push_back(row);
+    }
+    return found;
+  };
+  EXPECT_TRUE(row_of_walks().empty()) << "nobody walked";
+  tables.runs.set("paper_walks", 0, 600);
+  tables.runs.set("paper_failures", 0, 6);
+  tables.runs.set("paper_walks", 3, 500);
+  tables.runs.set("paper_failures", 3, 6);
+  ASSERT_EQ(row_of_walks().size(), 1);
+  EXPECT_EQ(row_of_walks().front().ours, "1.1 ± 0.1 %");
+  EXPECT_EQ(row_of_walks().front().verdict, "agrees");
+  tables.runs.set("paper_failures", 0, 300);
+  tables.runs.set("paper_failures", 3, 250);
+  EXPECT_EQ(row_of_walks().front().ours, "50.0 ± 0.0 %");
+  EXPECT_EQ(row_of_walks().front().verdict, "differs");
+}
+
+TEST(Samples, SeedsWithoutAValueAreNoGroup) {
+  EnsembleTables tables = some_ensemble(95, 0.3);
+  EXPECT_FALSE(Samples(tables).has_paper_walk());
+  EXPECT_EQ(Samples(tables).of(kAllOfThem, "paper_d_R").groups, 0);
+  tables.contacts.set("paper_d_R", 3, 5.0);  // seed 1
+  tables.contacts.set("paper_d_R", 5, 6.0);  // seed 1
+  const Samples samples(tables);
+  EXPECT_TRUE(samples.has_paper_walk());
+  const GroupedValues values = samples.of(kAllOfThem, "paper_d_R");
+  EXPECT_EQ(values.groups, 1);
+  EXPECT_EQ(values.group[3], 0);
+  EXPECT_EQ(values.group[5], 0);
+  EXPECT_EQ(samples.of(kAllOfThem, "mu").groups, 2);
 }
 
 TEST(FlatTable, SumsWhatIsKnown) {

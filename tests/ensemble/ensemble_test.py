@@ -186,6 +186,46 @@ class EnsembleTest(program.ProgramTest):
         for wrong in ("-1", "some", "3x"):
             self.assertIn("expected a number, or all", self.ensemble("f", "--uniform-seeds", wrong, status=2).stderr)
 
+    def test_the_walk_of_the_paper_is_that_of_the_command(self):
+        self.ensemble("e", "--paper-walk", "1")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        self.assertTrue((np.isnan(runs["paper_walks"]) == (runs["seed"] == 1)).all())
+        self.assertTrue((np.isnan(contacts["paper_d_R"]) == (runs["seed"][contacts["run"]] == 1)).all())
+        differing = 0
+        for row in np.flatnonzero(runs["seed"] == 0):
+            name = runs["member"][row].decode()
+            done = self.run_indet("analyze", f"e/members/{name}.h5", "--method", "pivoting-paper", "--extremal-states",
+                                  "solver", "-o", f"{name}.h5", "--json")
+            paper = json.loads(done.stdout)["paper"]
+            self.assertEqual((paper["neighbour_rule"], paper["walk_start"]), ("first", "common"))
+            self.assertEqual((runs["paper_walks"][row], runs["paper_failures"][row]), (paper["walks"], paper["failures"]))
+            mine = contacts["run"] == row
+            with h5py.File(self.folder / f"{name}.h5") as file:
+                for column in ("d_R", "d_T"):
+                    np.testing.assert_array_equal(contacts[f"paper_{column}"][mine], file[f"ranges/{column}"][()])
+            differing += not np.allclose(contacts["paper_d_R"][mine], contacts["d_R"][mine])
+        self.assertGreater(differing, 0)
+        more = json.loads(self.ensemble("e", "--paper-walk", "all", "--json").stdout)
+        self.assertEqual((more["done"], more["skipped"]), (4, 4))
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        self.assertFalse(np.isnan(runs["paper_walks"]).any())
+        self.run_indet("report", "e")
+        self.assertIn("CD, the paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
+        self.assertIn("set title 'the paper''s walk'", (self.folder / "e/figures/fig08.gp").read_text())
+        self.assertIn("they measure which of these a method takes", (self.folder / "e/report.html").read_text())
+        self.ensemble("e", "--paper-walk", "0")
+        self.assertTrue(np.isnan(table(self.folder / "e/ensemble.h5", "contacts")["paper_d_R"]).all())
+        self.run_indet("report", "e")
+        self.assertNotIn("paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
+        self.assertIn("--paper-walk some: expected a number, or all", self.ensemble("f", "--paper-walk", "some", status=2).stderr)
+
+    def test_an_ensemble_of_an_earlier_version_is_to_be_written_anew(self):
+        self.ensemble("e")
+        with h5py.File(self.folder / "e/ensemble.h5", "r+") as file:
+            del file["table/runs/paper_walks"]
+        self.assertIn("was written by an earlier indet", self.run_indet("inspect", "e", status=3).stderr)
+
     def test_threads_change_nothing(self):
         for threads in ("1", "3"):
             self.run_indet("ensemble", *TINY[:-1], "40", "-o", threads, "--threads", threads)

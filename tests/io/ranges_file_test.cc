@@ -140,6 +140,7 @@ TEST(RangesFile, WhatThePaperCountsComesBack) {
   const test::TemporaryFolder folder;
   ForceRanges written = test::sample_ranges();
   written.method = Method::kPivotingPaper;
+  written.paper_options = {NeighbourRule::kRandom, WalkStart::kMinimum, 17};
   std::int64_t number = 1;
   for (std::int64_t& count : written.paper.starts) count = number++;
   for (std::int64_t& count : written.paper.walks) count = number++;

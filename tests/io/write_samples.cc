@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     rare.requested = 3;
     rare.sample_seed = 12;
     rare.method = indet::Method::kPivotingPaper;
+    rare.paper_options.neighbour = indet::NeighbourRule::kRandom;
     rare.motion.setConstant(3, 3, 0.5);
     indet::write_ranges(folder / "rare.h5", indet::test::sample_packing(), rare, provenance);
 

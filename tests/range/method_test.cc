@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,25 @@ namespace {
 ForceRanges analyze_by(Method method, const Packing& packing, int threads = 1) {
   AnalyzeOptions options;
   options.method = method;
+  options.threads = threads;
+  return analyze(packing, options);
+}
+
+/// By the paper's method, as each of its options has it.
+std::vector<PaperOptions> all_paper_options() {
+  std::vector<PaperOptions> all;
+  for (const NeighbourRule rule : kNeighbourRules) {
+    for (const WalkStart start : kWalkStarts) all.push_back({rule, start, 5});
+  }
+  return all;
+}
+
+ForceRanges walk_by(const PaperOptions& paper, const Packing& packing, bool canonical_states = true,
+                    int threads = 1) {
+  AnalyzeOptions options;
+  options.method = Method::kPivotingPaper;
+  options.paper = paper;
+  options.canonical_states = canonical_states;
   options.threads = threads;
   return analyze(packing, options);
 }
@@ -78,7 +98,11 @@ TEST(Methods, ThePaperIsRightOrSaysSoInTheZoo) {
   int number = 0;
   for (const Packing& packing : simple_scenes()) {
     SCOPED_TRACE(number++);
-    expect_right_or_marked(analyze_by(Method::kLp, packing), analyze_by(Method::kPivotingPaper, packing));
+    const ForceRanges lp = analyze_by(Method::kLp, packing);
+    for (const PaperOptions& paper : all_paper_options()) {
+      SCOPED_TRACE(std::string(to_string(paper.neighbour)) + ", " + to_string(paper.start));
+      expect_right_or_marked(lp, walk_by(paper, packing));
+    }
   }
 }
 
@@ -98,9 +122,11 @@ TEST(Methods, ThePaperIsRightOrSaysSoInPiles) {
         zoo::random_pile(*rc::gen::inRange<std::uint64_t>(0, 1000000), *rc::gen::inRange(1, 12),
                          *rc::gen::element(-1.0, 0.05, 0.3, 0.7, 2.0));
     const ForceRanges lp = analyze_by(Method::kLp, packing);
-    const ForceRanges paper = analyze_by(Method::kPivotingPaper, packing);
-    RC_CLASSIFY(paper.paper.failures() > 0, "with failures");
-    expect_right_or_marked(lp, paper);
+    for (const PaperOptions& options : all_paper_options()) {
+      const ForceRanges paper = walk_by(options, packing);
+      RC_CLASSIFY(paper.paper.failures() > 0, "with failures");
+      expect_right_or_marked(lp, paper);
+    }
     RC_ASSERT(!testing::Test::HasFailure());
   }));
 }
@@ -147,7 +173,11 @@ TEST(Methods, FailuresOfThePaperAreCounted) {
   EXPECT_GE(work.failures(), work.walks[static_cast<std::size_t>(WalkEnd::kMoreActive)]);
   EXPECT_EQ(work.walk_count(), ranges.objectives - ranges.determined);
   EXPECT_GT(work.unexpected, 0);
-  EXPECT_EQ(work.neighbours, work.points * ranges.dim);
+  EXPECT_LT(work.neighbours, work.points * ranges.dim) << "not all, where one of the first is better";
+  EXPECT_GE(work.neighbours, work.walk_count() * ranges.dim) << "but all of where a walk ends";
+  const PaperWork best = walk_by({.neighbour = NeighbourRule::kBest}, zoo::lattice_pile(6, 0.9)).paper;
+  EXPECT_EQ(best.neighbours, best.points * ranges.dim);
+  EXPECT_LT(best.points, work.points);
   EXPECT_EQ(work.fallbacks(), 1) << "the pile has no simulated forces";
 }
 
@@ -167,6 +197,34 @@ TEST(Methods, ThePaperStartsFromTheSimulatedState) {
   EXPECT_EQ(work.starts[static_cast<std::size_t>(InteriorEnd::kFound)], lp.blocks);
   EXPECT_EQ(work.sliding_left, lp.dim);
   expect_right_or_marked(lp, ranges);
+}
+
+// dR and dT of the walk, which depend on where it ends.
+TEST(Methods, TheStatesOfTheWalkAreThoseOfItsOptions) {
+  Packing packing;
+  for (std::uint64_t seed = 1; seed < 50; ++seed) {
+    packing = zoo::random_pile(seed, 20, 0.3);
+    const ForceRanges lp = analyze_by(Method::kLp, packing);
+    if (lp.status == PolytopeStatus::kBounded && lp.dim > 8) break;
+  }
+  std::set<double> sums;
+  for (const PaperOptions& options : all_paper_options()) {
+    const ForceRanges ranges = walk_by(options, packing, false);
+    ASSERT_EQ(ranges.status, PolytopeStatus::kBounded);
+    EXPECT_EQ(ranges.paper_options.neighbour, options.neighbour);
+    EXPECT_EQ(ranges.paper_options.start, options.start);
+    EXPECT_TRUE(test::same_bytes(ranges, walk_by(options, packing, false)));
+    EXPECT_TRUE(test::same_bytes(ranges, walk_by(options, packing, false, 3)));
+    sums.insert(ranges.d_R.sum());
+    for (Eigen::Index i = 0; i < ranges.value.rows(); ++i) {
+      const Eigen::VectorXd step =
+          (ranges.states.row(ranges.vertex(i, kMaxR)) - ranges.states.row(ranges.vertex(i, kMinR))) /
+          ranges.force_unit;
+      EXPECT_NEAR(step.norm(), ranges.d_R[i], 1e-9 * (1 + ranges.d_R[i]));
+      EXPECT_GE(ranges.d_R[i], ranges.delta_R[i] * (1 - 1e-9)) << "the contact's own force is part of it";
+    }
+  }
+  EXPECT_EQ(sums.size(), all_paper_options().size());
 }
 
 TEST(Methods, ThreadsDoNotChangeTheResult) {

@@ -34,6 +34,7 @@ ForceRanges ranges_with_everything() {
   AnalyzeOptions options;
   options.contacts = {ContactChoice::Kind::kSample, 2, 1, {}};
   options.method = Method::kPivotingPaper;
+  options.paper.neighbour = NeighbourRule::kRandom;
   return analyze(zoo::wedge(0.4, 0.3), options);
 }
 

@@ -106,6 +106,12 @@ void sample_member_uniformly(const EnsembleConfig& config, const Member& member,
   result.seconds["sample_uniform"] = watch.seconds();
 }
 
+void walk_member(const ProgressCallback& progress, MemberResult& result) {
+  const Stopwatch watch;
+  result.paper_walk = walk_as_the_paper(result.packing, progress);
+  result.seconds["paper_walk"] = watch.seconds();
+}
+
 }  // namespace
 
 ExtremalForces count_extremal_forces(const Rows<double>& states, const Table4<std::int32_t>& vertex,
@@ -139,6 +145,7 @@ MemberResult compute_member(const EnsembleConfig& config, const Member& member,
   }
   analyze_member(config, progress, result);
   const WeightStates chain = sample_member(config, member, progress, result);
+  if (member.paper_walk) walk_member(progress, result);
   if (member.uniform) sample_member_uniformly(config, member, chain, progress, result);
   return result;
 }

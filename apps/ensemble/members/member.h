@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/members/paper_walk_step.h"
 #include "apps/ensemble/members/plan.h"
 #include "apps/ensemble/members/uniform_step.h"
 #include "libindet/base/progress.h"
@@ -37,6 +38,7 @@ struct MemberResult {
   ExtremalForces solver_extremal;  ///< Of the states that the solver happens to find; or empty.
   std::optional<SamplingRecord> sampling;
   std::optional<UniformResult> uniform;
+  std::optional<PaperWalkResult> paper_walk;
   std::map<std::string, double> seconds;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "apps/ensemble/members/paper_walk_step.h"
 #include "apps/ensemble/members/write_vector.h"
 #include "libindet/base/error.h"
 #include "libindet/io/ranges_file.h"
@@ -43,6 +44,7 @@ void write_ensemble_part(Hdf5File& file, const Member& member, const MemberResul
                  "states that the solver happens to find");
   }
   write_counts(file, "/ensemble/extremal_R", result.extremal, "canonical states");
+  if (result.paper_walk) write_paper_walk(file, *result.paper_walk);
 }
 
 }  // namespace

@@ -10,7 +10,9 @@ namespace indet {
 
 /// The file of one member is a file of `indet analyze` with /simulation, /sampling, /uniform, /bias, and
 ///
-///     /ensemble  @member @hash @config; solver_d_R, solver_d_T f8[M]; extremal_R, solver_extremal_R i4[4, B]
+///     /ensemble  @member @hash @config; solver_d_R, solver_d_T f8[M]; extremal_R, solver_extremal_R i4[4,
+///     B];
+///                @paper_…; paper_d_R, paper_d_T f8[M] (paper_walk_step.h)
 ///
 /// All functions use HDF5: one thread at a time.
 void write_member(const std::filesystem::path& path, const Member& member, const MemberResult& result,

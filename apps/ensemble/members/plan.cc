@@ -11,6 +11,7 @@
 #include "libindet/base/version.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/sha256.h"
+#include "libindet/range/paper_options.h"
 #include "libsim/scene_toml.h"
 
 namespace indet {
@@ -52,6 +53,19 @@ void add_uniform_sampling(const EnsembleConfig& config, double disks, Member& me
   member.cost += 0.6 * std::pow(disks / 95, 3);
 }
 
+/// The same for those that the paper's walk analyses.
+std::string paper_walk_toml() {
+  const PaperOptions options;
+  return fmt::format("[paper_walk]\nneighbour = \"{}\"\nstart = \"{}\"\n", to_string(options.neighbour),
+                     to_string(options.start));
+}
+
+void add_paper_walk(double disks, Member& member) {
+  member.paper_walk = true;
+  member.config += paper_walk_toml();
+  member.cost += 0.4 * std::pow(disks / 95, 4);
+}
+
 /// Seconds on one core, measured with 95 disks (docs/simulation.md, docs/ensemble.md); the exponents fit runs
 /// with 95 to 400. It orders the members and feeds the estimate of the remaining time.
 double cost_of(const EnsembleConfig& config, Protocol protocol, double disks) {
@@ -81,6 +95,7 @@ Member simulated_member(const EnsembleConfig& config, Protocol protocol, std::in
     member.config += "# start\n" + to_toml(simulation_options_of(config, Protocol::kCd1));
   member.config += analysis_toml(config, seed);
   if (number < config.uniform_seeds) add_uniform_sampling(config, config.scene.disks, member);
+  if (number < config.paper_walk_seeds) add_paper_walk(config.scene.disks, member);
   return member;
 }
 
@@ -96,6 +111,7 @@ Member member_of_file(const EnsembleConfig& config, const std::filesystem::path&
                               file.sha256({"/contacts", "/parameters", "/particles", "/walls"}));
   member.config += analysis_toml(config, std::max<std::int64_t>(member.seed, 0));
   if (number < config.uniform_seeds) add_uniform_sampling(config, disks, member);
+  if (number < config.paper_walk_seeds) add_paper_walk(disks, member);
   return member;
 }
 
@@ -110,6 +126,8 @@ std::string config_of(const EnsembleConfig& config) {
   text += analysis_toml(config, -1);
   if (config.uniform_seeds > 0)
     text += uniform_toml(config.uniform, -1) + fmt::format("packings = {}\n", config.uniform_seeds);
+  if (config.paper_walk_seeds > 0)
+    text += paper_walk_toml() + fmt::format("packings = {}\n", config.paper_walk_seeds);
   return text;
 }
 
@@ -133,6 +151,7 @@ sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {
 
 sim::SimulationOptions simulation_options_of(const EnsembleConfig& config, Protocol protocol) {
   sim::SimulationOptions options;
+  options.contact_dynamics = config.contact_dynamics;
   if (is_simulated_by(protocol, sim::Simulator::kMolecularDynamics)) {
     options.simulator = sim::Simulator::kMolecularDynamics;
     options.molecular_dynamics = config.molecular_dynamics;

@@ -19,12 +19,15 @@ struct EnsembleConfig {
   std::int64_t first_seed = 0;
   std::int64_t seeds = 60;
   std::vector<sim::Protocol> protocols = {sim::kSimulated.begin(), sim::kSimulated.end()};
+  sim::ContactDynamicsOptions contact_dynamics;
   sim::MolecularDynamicsOptions molecular_dynamics;
   std::vector<std::filesystem::path> files;  ///< Packings that are there already.
   sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
   /// Packings of each protocol that are sampled uniformly too: those of the first seeds, the first files.
   std::int64_t uniform_seeds = 60;
   UniformOptions uniform;  ///< Its seed is that of each packing.
+  /// Packings of each protocol that the paper's walk analyses too, of the first seeds or files.
+  std::int64_t paper_walk_seeds = 60;
   bool solver_states =
       true;  ///< Also dR and dT of the states that the solver happens to find, as in the paper.
 };
@@ -37,6 +40,7 @@ struct Member {
   std::int64_t seed = -1;
   std::filesystem::path source;  ///< Of a packing that was there.
   bool uniform = false;          ///< Also sampled uniformly.
+  bool paper_walk = false;       ///< Also analysed by the paper's walk.
   double cost = 0;               ///< Estimated seconds on one core.
   std::string config;            ///< Everything that its results depend on, as TOML.
   std::string hash;              ///< SHA-256 of `config`.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -26,6 +27,10 @@ constexpr const char* kCanonical =
     "where many states attain an optimum, the one of smallest total normal force";
 constexpr const char* kSolver =
     "where many states attain an optimum, the state that the solver happens to find";
+constexpr const char* kWalk =
+    "where many states attain an optimum, the state in which the walk of Sec. II G ends: each starts from "
+    "the "
+    "first extremal point of the packing, and goes to the first neighbour found that is better";
 
 /// A disk of unit weight in a groove of two walls whose normals make `angle` with the vertical (Fig. 2 of the
 /// paper).
@@ -189,21 +194,45 @@ Figure local(const Samples& samples) {
       .panels = {panel_of(curves, "δR, δT (mg)", true, high, round_width(high, 40))}};
 }
 
-Figure global(const Samples& samples, const char* id, const char* title, const char* normal,
-              const char* tangential, const char* which) {
-  const std::vector<Curve> curves = pair_of_methods(samples, normal, tangential);
-  const double high = end_of_axis(curves);
-  std::string finding = "Main maximum between a tenth of the 99 % quantile and that. ";
-  for (const Curve& c : curves) finding += maximum_text(c.name, c.data);
-  return {.id = id,
-          .title = title,
-          .caption = fmt::format(
-              "Densities of dR and dT [24], the distance between the states of smallest and largest "
-              "force of a contact; {}. {}",
-              which, kDensity),
-          .claim = "Two maxima: near 0, and at about 60 mg (CD) and 75 mg (MD).",
-          .finding = finding,
-          .panels = {panel_of(curves, "dR, dT (mg)", false, high, round_width(high, 40))}};
+std::string capitalised(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+/// Which of the states that attain an optimum dR and dT are the distances of.
+struct StateChoice {
+  const char* name;
+  const char* which;
+  const char* normal;
+  const char* tangential;
+};
+constexpr StateChoice kCanonicalChoice = {"canonical states", kCanonical, "d_R", "d_T"};
+constexpr StateChoice kSolverChoice = {"solver's vertices", kSolver, "solver_d_R", "solver_d_T"};
+constexpr StateChoice kWalkChoice = {"the paper's walk", kWalk, "paper_d_R", "paper_d_T"};
+
+/// One panel for each choice.
+Figure global(const Samples& samples, const char* id, const char* title,
+              const std::vector<StateChoice>& choices) {
+  Figure figure{.id = id,
+                .title = title,
+                .caption =
+                    "Densities of dR and dT [24], the distance between the states of smallest and largest "
+                    "force of a contact. As many states attain an optimum, they measure which of these a "
+                    "method takes as much as they measure F. ",
+                .claim = "Two maxima: near 0, and at about 60 mg (CD) and 75 mg (MD).",
+                .finding = "Main maximum between a tenth of the 99 % quantile and that. ",
+                .panels = {}};
+  for (const StateChoice& choice : choices) {
+    const std::vector<Curve> curves = pair_of_methods(samples, choice.normal, choice.tangential);
+    const double high = end_of_axis(curves);
+    figure.panels.push_back(panel_of(curves, "dR, dT (mg)", false, high, round_width(high, 40)));
+    figure.panels.back().title = choices.size() > 1 ? choice.name : "";
+    figure.caption += fmt::format("{}: {}. ", capitalised(choice.name), choice.which);
+    if (choices.size() > 1) figure.finding += fmt::format("{}: ", capitalised(choice.name));
+    for (const Curve& c : curves) figure.finding += maximum_text(c.name, c.data);
+  }
+  figure.caption += kDensity;
+  return figure;
 }
 
 Figure weak_and_strong(const Samples& samples, const char* id, const char* title, const char* normal,
@@ -317,11 +346,11 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
   if (!samples.has(kFourProtocols) || tables.contacts.rows() == 0) return figures;
   for (Figure& figure : dimensions(tables)) figures.push_back(std::move(figure));
   figures.push_back(local(samples));
-  figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", "d_R", "d_T", kCanonical));
-  if (samples.has_solver_states()) {
-    figures.push_back(global(samples, "fig08-solver", "Fig. 8 with the solver's vertices", "solver_d_R",
-                             "solver_d_T", kSolver));
-  }
+  std::vector<StateChoice> choices = {kCanonicalChoice};
+  if (samples.has_paper_walk()) choices.insert(choices.begin(), kWalkChoice);
+  figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", choices));
+  if (samples.has_solver_states())
+    figures.push_back(global(samples, "fig08-solver", "Fig. 8 with the solver's vertices", {kSolverChoice}));
   figures.push_back(weak_and_strong(
       samples, "fig09", "Fig. 9: local indeterminacy of weak and strong contacts", "delta_R", "delta_T",
       "δR, δT (mg)", "The peak at 0 is due to weak contacts alone; large indeterminacy to strong ones.",

@@ -23,13 +23,14 @@ constexpr std::array<const char*, 8> kColours = {"#0072B2", "#E69F00", "#009E73"
 constexpr std::array<int, 4> kSymbols = {6, 4, 8, 2};
 constexpr std::array<double, 4> kSymbolSizes = {0.6, 0.8, 0.95, 0.65};
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
+/// In marks of quotation, those within being doubled: CSV has " and gnuplot '.
+std::string quoted(const std::string& text, char mark = '"') {
+  std::string result(1, mark);
   for (const char c : text) {
-    if (c == '"') result += '"';
+    if (c == mark) result += mark;
     result += c;
   }
-  return result + '"';
+  return result + mark;
 }
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.10g}", value) : ""; }
@@ -54,8 +55,9 @@ std::string plot_commands(const Figure& figure) {
   std::string text;
   int column = 1;
   for (const Panel& panel : figure.panels) {
-    text += fmt::format("set title '{}'\n", panel.title);
-    text += fmt::format("set xlabel '{}'\nset ylabel '{}'\n", panel.x.label, panel.y.label);
+    text += fmt::format("set title {}\n", quoted(panel.title, '\''));
+    text += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(panel.x.label, '\''),
+                        quoted(panel.y.label, '\''));
     text += fmt::format("set xrange {}\nset yrange {}\n", range(panel.x), range(panel.y));
     text += panel.y.logarithmic ? "set logscale y\nset format y '10^{%L}'\n"
                                 : "unset logscale y\nset format y '%g'\n";
@@ -64,8 +66,8 @@ std::string plot_commands(const Figure& figure) {
                                              panel.legend_left ? "left" : "right");
     std::string separator = "plot ";
     for (const Series& series : panel.series) {
-      text += fmt::format("{}data using {}:{} {} title '{}'", separator, column, column + 1, style(series),
-                          series.name);
+      text += fmt::format("{}data using {}:{} {} title {}", separator, column, column + 1, style(series),
+                          quoted(series.name, '\''));
       if (!series.error.empty()) {
         // Vectors, because error bars cut gaps into the curves. On a logarithmic axis they end at y/5.
         const char* low = panel.y.logarithmic ? "(${1}-${2}>${1}/5?${1}-${2}:${1}/5)" : "(${1}-${2})";

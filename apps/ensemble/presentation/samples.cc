@@ -14,6 +14,19 @@ bool contains(const Protocols& protocols, sim::Protocol protocol) {
   return std::find(protocols.begin(), protocols.end(), protocol) != protocols.end();
 }
 
+/// Numbers groups anew, so that each has a value: what only some packings have must not seem to vary by
+/// resamples of those that lack it.
+void number_groups_with_values(GroupedValues& data) {
+  std::map<int, int> numbers;
+  for (std::size_t i = 0; i < data.values.size(); ++i) {
+    if (!std::isnan(data.values[i])) numbers.emplace(data.group[i], 0);
+  }
+  int count = 0;
+  for (auto& [group, number] : numbers) number = count++;
+  for (int& group : data.group) group = numbers.contains(group) ? numbers.at(group) : 0;
+  data.groups = count;
+}
+
 }  // namespace
 
 std::string text_of(const Estimate& estimate, int digits) {
@@ -60,9 +73,9 @@ bool Samples::has(const Protocols& protocols) const {
                      [&](sim::Protocol protocol) { return contains(protocols, protocol); });
 }
 
-bool Samples::has_solver_states() const {
-  const std::vector<double> values = tables_.contacts.numbers("solver_d_R");
-  return std::any_of(values.begin(), values.end(), [](double v) { return v == v; });
+bool Samples::has_values(const std::string& column) const {
+  const std::vector<double> values = tables_.contacts.numbers(column);
+  return std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); });
 }
 
 GroupedValues Samples::of(const Protocols& protocols, const std::string& column) const {
@@ -75,7 +88,7 @@ GroupedValues Samples::of(const Protocols& protocols, const std::string& column)
     const auto row = static_cast<std::size_t>(run[i]);
     if (wanted[row]) result.add(values[i], group_[row]);
   }
-  result.groups = groups_;
+  number_groups_with_values(result);
   return result;
 }
 
@@ -89,7 +102,7 @@ GroupedValues Samples::split_by_force(sim::Protocol protocol, const std::string&
   for (std::size_t i = 0; i < all.values.size(); ++i) {
     if ((force.values[i] > mean) == strong) result.add(all.values[i], all.group[i]);
   }
-  result.groups = groups_;
+  result.groups = all.groups;
   return result;
 }
 

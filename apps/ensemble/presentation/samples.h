@@ -34,8 +34,9 @@ class Samples {
   const Protocols& protocols() const { return protocols_; }
   /// True if some packing of any of these protocols is there.
   bool has(const Protocols& protocols) const;
-  bool has_solver_states() const;
-  /// A column of the contacts of some protocols.
+  bool has_solver_states() const { return has_values("solver_d_R"); }
+  bool has_paper_walk() const { return has_values("paper_d_R"); }
+  /// A column of the contacts of some protocols. Seeds without a value are no group.
   GroupedValues of(const Protocols& protocols, const std::string& column) const;
   /// The same for contacts with more, or less, than the mean normal force of the protocol.
   GroupedValues split_by_force(sim::Protocol protocol, const std::string& column, bool strong) const;
@@ -50,6 +51,9 @@ class Samples {
   std::vector<double> runs(sim::Protocol protocol, const std::string& column) const;
 
  private:
+  /// True if some contact has a value in that column.
+  bool has_values(const std::string& column) const;
+
   const EnsembleTables& tables_;
   Protocols protocols_;
   std::vector<int> group_;  ///< Of each run: number of its seed.

@@ -58,6 +58,8 @@ std::vector<FlatTable::Column> contact_columns() {
       FlatTable::real("solver_d_R", "mg", "d_R with the states that the solver happens to find"));
   columns.push_back(
       FlatTable::real("solver_d_T", "mg", "d_T with the states that the solver happens to find"));
+  columns.push_back(FlatTable::real("paper_d_R", "mg", "d_R with the states where the paper's walk ends"));
+  columns.push_back(FlatTable::real("paper_d_T", "mg", "d_T with the states where the paper's walk ends"));
   columns.push_back(FlatTable::real("R_star", "1", "place of R in its range"));
   columns.push_back(FlatTable::real("T_star", "1", "place of T in its range"));
   for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
@@ -107,7 +109,8 @@ void add_contacts(const Hdf5File& file, const Packing& packing, std::size_t run,
   for (const char* name : kObjectives) take(fmt::format("/ranges/{}", name), name, mg);
   for (const char* name : {"delta_R", "delta_T", "d_R", "d_T", "R_star", "T_star"})
     take(fmt::format("/ranges/{}", name), name, 1);
-  for (const char* name : {"solver_d_R", "solver_d_T"}) take(fmt::format("/ensemble/{}", name), name, 1);
+  for (const char* name : {"solver_d_R", "solver_d_T", "paper_d_R", "paper_d_T"})
+    take(fmt::format("/ensemble/{}", name), name, 1);
   const std::vector<std::uint8_t> unique = file.read_bytes("/ranges/unique", {m, 4});
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t k = 0; k < 4; ++k)

@@ -23,8 +23,8 @@ const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
     {"failed", "minima and maxima not found"},
     {"unbounded", "minima and maxima without limit"}};
 
-/// Attributes of /simulation and /sampling that become columns of another name.
-constexpr std::array<AttributeColumn, 17> kAttributes = {{
+/// Attributes of other groups that become columns, mostly of another name.
+constexpr std::array<AttributeColumn, 20> kAttributes = {{
     {"raw_sliding", "/simulation", "raw_sliding", "1",
      "sliding contacts of the raw state, as the paper counts them; those that transmit nothing do not count"},
     {"time", "/simulation", "time", "sqrt(r_max/g)", "simulated time"},
@@ -43,14 +43,19 @@ constexpr std::array<AttributeColumn, 17> kAttributes = {{
     {"accepted", "/sampling", "accepted", "1", "solutions accepted"},
     {"worst_sample_residual", "/sampling", "worst_residual", "mg",
      "imbalance of the worst accepted solution"},
+    {"paper_walks", "/ensemble", "paper_walks", "1", "walks of the paper's method"},
+    {"paper_failures", "/ensemble", "paper_failures", "1",
+     "of these, failed ones: other than dim F constraints are active at their end"},
+    {"paper_imprecise", "/ensemble", "paper_imprecise", "1", "minima and maxima that they do not prove"},
     {"worst_raw_sample_residual", "/sampling", "worst_raw_residual", "mg", "the same before the polish"},
 }};
 
 /// Seconds.
-constexpr std::array<AttributeColumn, 4> kTimings = {{
+constexpr std::array<AttributeColumn, 5> kTimings = {{
     {"simulate", "/provenance/timings", "simulate", "s", "simulation"},
     {"analyze", "/provenance/timings", "analyze", "s", "ranges and extremal states"},
     {"sample", "/provenance/timings", "sample", "s", "perturb and resolve"},
+    {"paper_walk", "/provenance/timings", "paper_walk", "s", "the paper's walk"},
     {"sample_uniform", "/provenance/timings", "sample_uniform", "s", "uniform sampling, and its comparison"},
 }};
 
