@@ -133,6 +133,16 @@ int list_members(const Plan& plan, const Range& range, const std::filesystem::pa
   return kDone;
 }
 
+void print_molecular_dynamics(const EnsembleConfig& config, const std::string& preset) {
+  if (std::none_of(config.protocols.begin(), config.protocols.end(), [](sim::Protocol protocol) {
+        return is_simulated_by(protocol, sim::Simulator::kMolecularDynamics);
+      }))
+    return;
+  fmt::print(
+      "molecular dynamics: preset {}, stiffness {:.3g} mg/r_max, damping {:.3g} mg/r_max sqrt(r_max/g)\n",
+      preset, config.molecular_dynamics.k, config.molecular_dynamics.gamma);
+}
+
 int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   const EnsembleConfig config = config_of(o, seeds_given);
@@ -155,6 +165,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   std::filesystem::create_directories(folder);
   write_plan(folder, plan);
 
+  if (context.prints_report()) print_molecular_dynamics(config, o.preset);
   RunOptions options;
   options.threads = context.thread_count();
   options.first = range.first;

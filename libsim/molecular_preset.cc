@@ -3,17 +3,6 @@
 #include <algorithm>
 
 namespace indet::sim {
-namespace {
-
-template <class Predicate>
-std::optional<MolecularPreset> find(const Predicate& predicate) {
-  const auto* const found = std::find_if(kMolecularPresets.begin(), kMolecularPresets.end(), predicate);
-  if (found == kMolecularPresets.end()) return {};
-  return found->preset;
-}
-
-}  // namespace
-
 MolecularDynamicsOptions options_of(MolecularPreset preset) {
   MolecularDynamicsOptions options;
   options.k = properties_of(preset).k;
@@ -28,11 +17,10 @@ std::vector<std::string> molecular_preset_names() {
 }
 
 std::optional<MolecularPreset> molecular_preset_from(std::string_view name) {
-  return find([&](const MolecularPresetProperties& p) { return p.name == name; });
-}
-
-std::optional<MolecularPreset> molecular_preset_of(const MolecularDynamicsOptions& options) {
-  return find([&](const MolecularPresetProperties& p) { return p.k == options.k && p.gamma == options.gamma; });
+  const auto* const found = std::find_if(kMolecularPresets.begin(), kMolecularPresets.end(),
+                                         [&](const MolecularPresetProperties& p) { return p.name == name; });
+  if (found == kMolecularPresets.end()) return {};
+  return found->preset;
 }
 
 }  // namespace indet::sim

@@ -44,7 +44,4 @@ std::vector<std::string> molecular_preset_names();
 /// The preset of this name, if there is one.
 std::optional<MolecularPreset> molecular_preset_from(std::string_view name);
 
-/// The preset that has these springs and dashpots, if there is one.
-std::optional<MolecularPreset> molecular_preset_of(const MolecularDynamicsOptions& options);
-
 }  // namespace indet::sim

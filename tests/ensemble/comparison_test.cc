@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -55,7 +56,53 @@ TEST(Comparison, WritesWhatIsKnownOfAnEstimate) {
 TEST(Comparison, JudgesTheCaseOfThePaper) {
   const EnsembleTables tables = some_ensemble(95, 0.3);
   EXPECT_EQ(reason_for_no_verdict(tables), "");
-  EXPECT_EQ(verdicts(tables), (std::set<std::string>{"", "agrees", "differs"}));
+  EXPECT_EQ(verdicts(tables), (std::set<std::string>{kAgrees, kDiffers, kNotDecided}));
+}
+
+TEST(Comparison, OrderIsDecidedByTwoStandardErrors) {
+  EXPECT_STREQ(verdict_of_order({10, 1}, {7, 1}), kAgrees);
+  EXPECT_STREQ(verdict_of_order({10, 1}, {7.5, 1}), kNotDecided);
+  EXPECT_STREQ(verdict_of_order({7.5, 1}, {10, 1}), kNotDecided);
+  EXPECT_STREQ(verdict_of_order({7, 1}, {10, 1}), kDiffers);
+}
+
+/// Verdicts on the sliding contacts of the four families, with these numbers in the raw states of both seeds.
+std::vector<std::string> sliding_verdicts(const std::array<double, 4>& raw) {
+  EnsembleTables tables = some_ensemble(95, 0.3);
+  for (std::size_t run = 0; run < tables.runs.rows(); ++run)
+    tables.runs.set("raw_sliding", run, raw[run / 2] + 0.1 * static_cast<double>(run % 2));
+  std::vector<std::string> verdicts;
+  for (const Comparison& row : compare_with_paper(tables)) {
+    if (row.quantity.starts_with("sliding contacts, ")) verdicts.push_back(row.verdict);
+  }
+  return verdicts;
+}
+
+TEST(Comparison, JudgesSlidingContactsByTheirOrderInTheRawStates) {
+  using Verdicts = std::vector<std::string>;
+  EXPECT_EQ(sliding_verdicts({0, 0.2, 6, 33}), (Verdicts{kAgrees, kAgrees, kAgrees, kAgrees}));
+  EXPECT_EQ(sliding_verdicts({8, 17, 0, 0}), (Verdicts{kDiffers, kDiffers, kDiffers, kDiffers}));
+  EXPECT_EQ(sliding_verdicts({0, 0, 20, 20.1}), (Verdicts{kAgrees, kAgrees, kNotDecided, kNotDecided}));
+  // Most where it should be between.
+  EXPECT_EQ(sliding_verdicts({0, 0, 33, 6}), (Verdicts{kAgrees, kAgrees, kDiffers, kDiffers}));
+}
+
+TEST(PaperChoices, EachRowIsWhole) {
+  ASSERT_FALSE(paper_choices().empty());
+  EXPECT_TRUE(paper_choices_origin().starts_with("bench/paper_choices.py ")) << paper_choices_origin();
+  const std::set<std::string> verdicts = {kAgrees, kDiffers, kNotDecided};
+  for (const PaperChoice& choice : paper_choices()) {
+    EXPECT_TRUE(verdicts.contains(choice.verdict)) << choice.choice << ": " << choice.quantity;
+    EXPECT_FALSE(choice.ours.empty()) << choice.choice << ": " << choice.quantity;
+  }
+}
+
+TEST(PaperChoices, AreThoseOfRowsOfTheComparison) {
+  for (const Comparison& row : compare_with_paper(some_ensemble(95, 0.3))) {
+    if (row.quantity.starts_with("mean R, ") || row.quantity.starts_with("sliding contacts")) {
+      EXPECT_FALSE(choices_of(row.quantity).empty()) << row.quantity;
+    }
+  }
 }
 
 TEST(Comparison, HasNoVerdictOnOtherSizes) {

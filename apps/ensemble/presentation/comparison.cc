@@ -8,19 +8,13 @@
 #include <utility>
 
 #include "apps/ensemble/presentation/curves.h"
+#include "apps/ensemble/presentation/figure_comparison.h"
+#include "apps/ensemble/presentation/verdict.h"
 
 namespace indet {
 namespace {
 
 using sim::Protocol;
-
-std::string text_of_force(const Estimate& e) { return std::isnan(e.value) ? text_of(e) : text_of(e) + " mg"; }
-
-std::string verdict(const Estimate& ours, double paper, double paper_error) {
-  if (std::isnan(ours.value) || std::isnan(ours.error)) return "";
-  const double tolerance = 2 * std::hypot(ours.error, paper_error);
-  return std::abs(ours.value - paper) <= tolerance ? "agrees" : "differs";
-}
 
 /// "95", or "12 … 40".
 std::string span_of(const std::vector<double>& values) {
@@ -41,15 +35,10 @@ void add_dimensions(const EnsembleTables& tables, std::vector<Comparison>& rows)
   }
   rows.push_back({"dim F between 2M − 3N and 2M − 3N + 3 (Fig. 6a)", "all 240",
                   fmt::format("{} of {}", runs.rows() - static_cast<std::size_t>(outside), runs.rows()),
-                  outside == 0 ? "agrees" : "differs"});
+                  verdict_of(outside == 0)});
   rows.push_back({"sliding contacts Ms ≤ 2M − 3N (Fig. 6b)", "all 240",
                   fmt::format("{} of {}", runs.rows() - static_cast<std::size_t>(above), runs.rows()),
-                  above == 0 ? "agrees" : "differs"});
-}
-
-/// Whether we find what the paper gives without an error.
-bool is_about(const Estimate& ours, double paper) {
-  return std::abs(ours.value - paper) <= std::max(0.1 * paper, 2 * ours.error);
+                  verdict_of(above == 0)});
 }
 
 /// Where the paper's walk ends in a state that is not as expected, a mean over packings.
@@ -62,7 +51,7 @@ void add_walks(const EnsembleTables& tables, std::vector<Comparison>& rows) {
   if (percent.empty()) return;
   const Estimate ours = mean_of(percent);
   rows.push_back({"extremal states with other than dim F sliding contacts, the paper's walk (Sec. II G)",
-                  "about 1 %", text_of(ours) + " %", is_about(ours, 1) ? "agrees" : "differs"});
+                  "about 1 %", text_of(ours) + " %", verdict_of(is_about(ours, 1))});
 }
 
 }  // namespace
@@ -72,18 +61,13 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
   const Samples samples(tables);
   if (!samples.has(kFourProtocols)) return rows;
   add_dimensions(tables, rows);
-  const std::array<const char*, 4> sliding = {"near 0", "near 0", "between", "most"};
-  for (std::size_t p = 0; p < kFamilies.size(); ++p) {
-    if (!samples.has({kFamilies[p].protocol})) continue;
-    rows.push_back({fmt::format("sliding contacts, {} (Fig. 6b)", kFamilies[p].name()), sliding[p],
-                    text_of(mean_of(samples.runs(kFamilies[p].protocol, "sliding"))), ""});
-  }
+  add_sliding_contacts(samples, rows);
   for (const Family& family : kFamilies) {
     if (!samples.has({family.protocol})) continue;
     const Estimate mean = mean_of(samples.runs(family.protocol, "mean_R"));
     const bool is_known = family.protocol == Protocol::kCd1;
-    rows.push_back({fmt::format("mean R, {}", family.name()), is_known ? "9.3 mg" : "", text_of_force(mean),
-                    is_known ? verdict(mean, 9.3, 0) : ""});
+    rows.push_back({fmt::format("mean R, {}", family.name()), is_known ? "9.3 mg" : kNotGiven,
+                    text_of_force(mean), is_known ? verdict(mean, 9.3, 0) : kNotDecided});
   }
   for (const Family& family : kFamilies) {
     const std::vector<double> values = samples.runs(family.protocol, "r");
@@ -123,11 +107,12 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
         rows.push_back(
             {fmt::format("main maximum of d{}, {}, {} (Fig. 8)", component, md ? "MD" : "CD", states),
              fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of_force(ours),
-             is_about(ours, paper) ? "agrees" : "differs"});
+             verdict_of(is_about(ours, paper))});
       }
     }
   }
   add_walks(tables, rows);
+  add_densities(samples, rows);
   if (!reason_for_no_verdict(tables).empty()) {
     for (Comparison& row : rows) row.verdict.clear();
   }

@@ -12,7 +12,7 @@ struct Comparison {
   std::string quantity;
   std::string paper;
   std::string ours;     ///< With standard errors over the seeds.
-  std::string verdict;  ///< "agrees", "differs", or "" where the two cannot be compared.
+  std::string verdict;  ///< verdict.h; "" on an ensemble of other packings.
 };
 
 /// The numbers of Sec. III of the paper, which are for N = 95, μ = 0.3, and ours. A number agrees if the two

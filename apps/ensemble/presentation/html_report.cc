@@ -12,7 +12,9 @@
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/presentation/figures.h"
 #include "apps/ensemble/presentation/gnuplot.h"
+#include "apps/ensemble/presentation/paper_choices.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
+#include "apps/ensemble/presentation/verdict.h"
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/io/whole_file.h"
@@ -69,16 +71,55 @@ std::string inline_svg(const std::filesystem::path& path, const std::string& pre
   return text;
 }
 
-std::string table_of(const std::vector<Comparison>& rows, bool with_paper) {
-  std::string text = with_paper ? "<table><tr><th>quantity</th><th>paper</th><th>here</th><th></th></tr>\n"
-                                : "<table><tr><th>quantity</th><th>here</th></tr>\n";
-  for (const Comparison& row : rows) {
-    text += fmt::format("<tr><td>{}</td>", escaped(row.quantity));
-    if (with_paper) text += fmt::format("<td>{}</td>", escaped(row.paper));
-    text += fmt::format("<td>{}</td>", escaped(row.ours));
-    if (with_paper) text += fmt::format("<td class=\"{}\">{}</td>", row.verdict, row.verdict);
-    text += "</tr>\n";
+/// How a row comes out with other choices, to be unfolded.
+std::string dependence_of(const Comparison& row) {
+  const std::vector<PaperChoice> choices = choices_of(row.quantity);
+  if (choices.empty()) return "";
+  const auto agreeing = std::count_if(choices.begin(), choices.end(),
+                                      [](const PaperChoice& choice) { return choice.verdict == kAgrees; });
+  std::string text =
+      fmt::format("<details><summary>agrees in {} of {}</summary><table>", agreeing, choices.size());
+  for (const PaperChoice& choice : choices) {
+    text += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"{}\">{}</td></tr>", escaped(choice.choice),
+                        escaped(choice.ours), choice.verdict, choice.verdict);
   }
+  return text + "</table></details>";
+}
+
+std::string comparison_table(const std::vector<Comparison>& rows) {
+  std::string text =
+      "<table><tr><th>quantity</th><th>paper</th><th>here</th><th></th><th>with other choices</th></tr>\n";
+  for (const Comparison& row : rows) {
+    text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
+                        escaped(row.quantity), escaped(row.paper), escaped(row.ours), row.verdict,
+                        row.verdict, dependence_of(row));
+  }
+  return text + "</table>\n";
+}
+
+std::string note_on_verdicts(const EnsembleTables& tables) {
+  std::string text = "<p class=\"note\">";
+  const std::string other_case = reason_for_no_verdict(tables);
+  if (other_case.empty()) {
+    text +=
+        "\"agrees\": within two standard errors of the difference; where the paper gives no error, within 10 "
+        "%; where it says which is larger, larger by two standard errors. \"not decided\": the difference is "
+        "less, or the paper gives no number. Sliding contacts are judged by the raw states, as the paper "
+        "does not polish: its ε = 1e-9 counts contacts on their limit, and leaves out those that only the "
+        "polish puts there.";
+  } else {
+    text += other_case + " Hence there is no verdict.";
+  }
+  return text + fmt::format(
+                    " With other choices of what the paper leaves open: {}. Files: figures/comparison.csv, "
+                    "docs/measurements/paper-choices.tsv.</p>\n",
+                    escaped(paper_choices_origin()));
+}
+
+std::string table_beyond_the_paper(const std::vector<Comparison>& rows) {
+  std::string text = "<table><tr><th>quantity</th><th>here</th></tr>\n";
+  for (const Comparison& row : rows)
+    text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(row.quantity), escaped(row.ours));
   return text + "</table>\n";
 }
 
@@ -211,14 +252,9 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
   html += "<h2>What was run (Fig. 4)</h2>\n" + table_of_runs(contents.tables);
   const std::vector<Comparison> comparison = compare_with_paper(contents.tables);
   write_whole_file(figures_folder / "comparison.csv", csv_of(comparison));
-  html += "<h2>The paper's numbers</h2>\n" + table_of(comparison, true);
-  const std::string other_case = reason_for_no_verdict(contents.tables);
-  html +=
-      fmt::format("<p class=\"note\">{} File: figures/comparison.csv</p>\n",
-                  other_case.empty() ? "\"agrees\": within two standard errors of the difference; where the "
-                                       "paper gives no error, within 10 %."
-                                     : other_case + " Hence there is no verdict.");
-  html += "<h2>Beyond the paper</h2>\n" + table_of(beyond_the_paper(contents.tables), false);
+  html += "<h2>The paper's numbers</h2>\n" + comparison_table(comparison);
+  html += note_on_verdicts(contents.tables);
+  html += "<h2>Beyond the paper</h2>\n" + table_beyond_the_paper(beyond_the_paper(contents.tables));
   html += section_of_uniform_sampling(contents.tables, figures_folder);
   if (!pictures.empty()) {
     html += "<h2>Fig. 5: three contact states</h2>\n<div class=\"row\">\n";

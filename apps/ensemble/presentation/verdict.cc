@@ -1,0 +1,28 @@
+#include "apps/ensemble/presentation/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/ensemble/presentation/samples.h"
+
+namespace indet {
+
+const char* verdict(const Estimate& ours, double paper, double paper_error) {
+  if (std::isnan(ours.value) || std::isnan(ours.error)) return kNotDecided;
+  return verdict_of(std::abs(ours.value - paper) <= 2 * std::hypot(ours.error, paper_error));
+}
+
+const char* verdict_of_order(const Estimate& large, const Estimate& small) {
+  const double difference = large.value - small.value;
+  const double error = std::hypot(large.error, small.error);
+  if (difference > 2 * error) return kAgrees;
+  return difference < -2 * error ? kDiffers : kNotDecided;
+}
+
+bool is_about(const Estimate& ours, double paper) {
+  return std::abs(ours.value - paper) <= std::max(0.1 * paper, 2 * ours.error);
+}
+
+std::string text_of_force(const Estimate& e) { return std::isnan(e.value) ? text_of(e) : text_of(e) + " mg"; }
+
+}  // namespace indet

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "libindet/statistics/bootstrap.h"
+
+namespace indet {
+
+/// What can be said of one row of the comparison with the paper.
+constexpr const char* kAgrees = "agrees";
+constexpr const char* kDiffers = "differs";
+constexpr const char* kNotDecided = "not decided";
+
+/// In the paper's column, where it has no number.
+constexpr const char* kNotGiven = "not given";
+
+constexpr const char* verdict_of(bool agrees) { return agrees ? kAgrees : kDiffers; }
+
+/// Whether ours and the paper's number differ by at most two standard errors of their difference; not decided
+/// without a value or an error of ours.
+const char* verdict(const Estimate& ours, double paper, double paper_error);
+
+/// Whether `large` exceeds `small` by two standard errors of their difference; differs if it is so much
+/// smaller, else not decided.
+const char* verdict_of_order(const Estimate& large, const Estimate& small);
+
+/// Whether we find what the paper gives without an error: within 10 %, or two standard errors of ours.
+bool is_about(const Estimate& ours, double paper);
+
+/// "9.6 ± 0.2 mg".
+std::string text_of_force(const Estimate& e);
+
+}  // namespace indet
