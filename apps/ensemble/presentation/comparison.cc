@@ -13,8 +13,6 @@ namespace {
 
 using sim::Protocol;
 
-std::string text_of_force(const Estimate& e) { return std::isnan(e.value) ? text_of(e) : text_of(e) + " mg"; }
-
 std::string verdict(const Estimate& ours, double paper, double paper_error) {
   if (std::isnan(ours.value) || std::isnan(ours.error)) return "";
   const double tolerance = 2 * std::hypot(ours.error, paper_error);
@@ -63,17 +61,19 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
     if (!samples.has({family.protocol})) continue;
     const Estimate mean = mean_of(samples.runs(family.protocol, "mean_R"));
     const bool is_known = family.protocol == Protocol::kCd1;
-    rows.push_back({fmt::format("mean R, {}", family.name()), is_known ? "9.3 mg" : "", text_of_force(mean),
-                    is_known ? verdict(mean, 9.3, 0) : ""});
+    rows.push_back({fmt::format("mean R, {}", family.name()), is_known ? "9.3 mg" : "",
+                    text_of(mean, 1, "mg"), is_known ? verdict(mean, 9.3, 0) : ""});
   }
   for (const Family& family : kFamilies) {
     const std::vector<double> values = samples.runs(family.protocol, "r");
     const Estimate r = mean_of(values);
     if (std::isnan(r.value)) continue;
-    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", family.name()),
-                    fmt::format("{} mg, s.d. 12 mg", paper_radius(family)),
-                    fmt::format("{}, s.d. {:.1f} mg", text_of_force(r), standard_deviation(values)),
-                    verdict(r, family.paper_r, family.paper_r_error)});
+    const double deviation = standard_deviation(values);
+    rows.push_back(
+        {fmt::format("r of perturb-and-resolve [38], {}", family.name()),
+         fmt::format("{} mg, s.d. 12 mg", paper_radius(family)),
+         text_of(r, 1, "mg") + (std::isnan(deviation) ? "" : fmt::format(", s.d. {:.1f} mg", deviation)),
+         verdict(r, family.paper_r, family.paper_r_error)});
   }
   struct Distance {
     const char* name;
@@ -86,7 +86,7 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
                             Distance{"distance MD-2 – CD-2", Protocol::kMd2, "distance_cd2", 45, 3}}) {
     const Estimate ours = mean_of(samples.runs(d.protocol, d.column));
     if (std::isnan(ours.value)) continue;
-    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of_force(ours),
+    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of(ours, 1, "mg"),
                     verdict(ours, d.value, d.error)});
   }
   for (const bool md : {false, true}) {
@@ -101,8 +101,8 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
       const bool solver = std::string(column).starts_with("solver");
       rows.push_back({fmt::format("main maximum of d{}, {}, {} (Fig. 8)", column[solver ? 9 : 2],
                                   md ? "MD" : "CD", solver ? "solver's vertices" : "canonical states"),
-                      fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of_force(ours),
-                      near ? "agrees" : "differs"});
+                      fmt::format("≈ {:g} mg", paper),
+                      std::isnan(ours.value) ? "none" : text_of(ours, 1, "mg"), near ? "agrees" : "differs"});
     }
   }
   if (!reason_for_no_verdict(tables).empty()) {
