@@ -191,7 +191,8 @@ Command add_import(CLI::App& root) {
   command
       ->add_option("--balance-tol", options->balance_tolerance,
                    "Largest net force (mg) or torque (mg r) on a disk that is accepted as balanced (default: "
-                   "1e-6; more if the files have few digits)")
+                   "1e-6, of about the largest load on a disk if the scene names a unit far from it; more if "
+                   "the files have few digits)")
       ->check(not_negative());
   command->add_option("-o,--output", options->output, "HDF5 file to write (required)");
   add_overwrite_option(*command, options->overwrite);

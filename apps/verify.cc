@@ -20,6 +20,7 @@
 #include "libindet/verify/bias_check.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/exact_check.h"
+#include "libindet/verify/outcome_check.h"
 #include "libindet/verify/samples_check.h"
 
 namespace indet::app {
@@ -44,21 +45,6 @@ Verification check_digests(const Hdf5File& file) {
   return compare.result();
 }
 
-/// Without a sample the outcome says why, and has to agree with the ranges.
-Verification check_outcome(const std::string& outcome, const SamplingRecord* uniform,
-                           const ForceRanges* ranges) {
-  Comparisons compare("/uniform");
-  if (uniform != nullptr) {
-    const auto converged = uniform->numbers.find("converged");
-    const bool has_converged = converged != uniform->numbers.end() && converged->second == 1;
-    compare.require(outcome == (has_converged ? "converged" : "limit"), "outcome: \"{}\" is stored", outcome);
-  } else if (ranges != nullptr) {
-    compare.require(outcome == to_string(ranges->status), "outcome: \"{}\" is stored, but F is {}", outcome,
-                    to_string(ranges->status));
-  }
-  return compare.result();
-}
-
 std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
   std::vector<Part> parts = {{"file", check_digests(file)}};
   const Packing packing = read_packing(file);
@@ -77,8 +63,8 @@ std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
   if (file.has("/sampling")) check_samples("/sampling", sampling);
   if (file.has("/uniform/center")) check_samples("/uniform", uniform);
   if (file.has("/uniform")) {
-    parts.push_back({"/uniform", check_outcome(file.string_attribute("/uniform", "outcome"),
-                                               uniform ? &*uniform : nullptr, known)});
+    parts.push_back({"/uniform", verify_outcome(file.string_attribute("/uniform", "outcome"),
+                                                uniform ? &*uniform : nullptr, known)});
   }
   if (const std::optional<BiasRecord> bias = read_bias(file)) {
     const SamplingRecord none;

@@ -121,7 +121,8 @@ std::optional<std::string> Scene::defect() const {
   const Scene full = resolved();
   const double cell_width = full.width / full.columns;
   const double cell_height = full.height / row_count(full);
-  if (!(cell_width >= 2 * radius_max) || !(cell_height >= 2 * radius_max)) {
+  const double least = 2 * radius_max * (1 - tolerance::kCellSize);
+  if (!(cell_width >= least) || !(cell_height >= least)) {
     return fmt::format(
         "the grid of {} × {} cells in {} × {} has cells of {:.4g} × {:.4g}, too small for disks of diameter "
         "{}: make the "

@@ -151,21 +151,22 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
     polish_options.sliding = std::max(polish_options.sliding, 10 * options.molecular_dynamics.residual);
   result.polished = polish(result.raw, result.raw.simulated_forces().value(), polish_options);
   result.packing = result.raw;
-  const double unit = result.raw.force_unit();
+  const ForceUnits force_units = result.raw.force_units();
   if (result.polished.balanced) {
     result.packing.contacts.clear();
     for (int i = 0; i < result.raw.contact_count(); ++i) {
       Contact contact = result.raw[ContactId(i)];
       contact.R = result.polished.forces[2 * i];
       contact.T = result.polished.forces[2 * i + 1];
-      if (contact.R > options.polish.transmitting * unit) result.packing.contacts.push_back(contact);
+      if (contact.R > options.polish.transmitting * force_units.internal_in_scene())
+        result.packing.contacts.push_back(contact);
     }
   }
   for (const Contact& contact : result.packing.contacts) {
     const double overlap = std::max(0.0, -contact.gap) / result.packing.max_radius();
     result.mean_overlap += overlap / result.packing.contact_count();
     result.largest_overlap = std::max(result.largest_overlap, overlap);
-    result.mean_force += contact.R / unit / result.packing.contact_count();
+    result.mean_force += contact.R / force_units.weight_in_scene() / result.packing.contact_count();
   }
   result.raw_sliding = sliding_contacts(result.raw);
   return result;

@@ -24,7 +24,7 @@ inline constexpr double kNormalLength = 1e-6;
 inline constexpr double kNormalDirection = 1e-4;
 
 /// Default of --balance-tol: largest force or torque residual of an imported packing with known forces, in
-/// mg.
+/// the internal unit.
 inline constexpr double kBalance = 1e-6;
 
 // Dumps of LAMMPS.
@@ -234,7 +234,7 @@ inline constexpr double kNarrowestBin = 1e-12;
 inline constexpr double kAgreement = 1e-12;
 
 /// The same for a sum over many states, for diagnostics of chains (sums over products of sums), for the mean
-/// square of ‖F‖ (relative), and for a p-value (relative).
+/// square of ‖F‖ (relative), and for a p-value (relative to p max(1, −ln p)).
 inline constexpr double kSumAgreement = 1e-9;
 inline constexpr double kDiagnosticAgreement = 1e-8;
 inline constexpr double kSizeAgreement = 1e-11;
@@ -293,7 +293,7 @@ inline constexpr double kLastTick = 1e-9;
 inline constexpr double kRoundNumber = 1e-12;
 
 // Simulation (libsim). Forces and energies in the world's units (libsim/world.h), of a polish in internal
-// units. All but kSweepLoosening, kNormalShift and kWholeNumber are defaults of options.
+// units. All but kSweepLoosening, kNormalShift, kCellSize and kWholeNumber are defaults of options.
 
 /// A run is at rest once the kinetic energy per disk is below kRestEnergy and the forces balance to
 /// kRestForce (contact dynamics) or kRestSpringForce (springs; rounding of the positions alone leaves about
@@ -322,6 +322,10 @@ inline constexpr double kAcceptedResidual = 1e-9;
 /// Added to the diagonal of the normal equations A Aᵀ (of order one), so that rows that no contact balances
 /// do not make them singular; refinement undoes it.
 inline constexpr double kNormalShift = 1e-10;
+
+/// A cell of the grid may be this much smaller than the largest disk (relative): rounding of a size that was
+/// chosen to fit.
+inline constexpr double kCellSize = 1e-14;
 
 /// A quotient this little below a whole number is that number.
 inline constexpr double kWholeNumber = 1e-9;

@@ -54,6 +54,8 @@ BalanceReport report_balance(const ImportedPacking& imported) {
 
 double default_balance_tolerance(const ImportedPacking& imported) {
   const Packing& packing = imported.packing;
+  const ForceUnits units = packing.force_units();
+  const double exact = units.weights(InternalForce(tolerance::kBalance)).value();
   // A rounded coordinate x turns a normal by up to rounding · |x| / r; each of about six contacts then errs
   // by that times its force.
   double extent = 0;
@@ -66,9 +68,9 @@ double default_balance_tolerance(const ImportedPacking& imported) {
   for (const Contact& contact : packing.contacts) {
     largest_force = std::max({largest_force, std::abs(contact.R), std::abs(contact.T)});
   }
-  if (packing.disks.empty() || !std::isfinite(largest_force)) return tolerance::kBalance;
+  if (packing.disks.empty() || !std::isfinite(largest_force)) return exact;
   const double rounded = 6 * imported.rounding * (1 + extent / smallest) * largest_force;
-  return std::max(tolerance::kBalance, rounded / packing.force_unit());
+  return std::max(exact, units.weights(SceneForce(rounded)).value());
 }
 
 void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {

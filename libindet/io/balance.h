@@ -25,8 +25,9 @@ struct BalanceReport {
 
 BalanceReport report_balance(const ImportedPacking& imported);
 
-/// The residual (mg) up to which an import is accepted unless the user says otherwise: tolerance::kBalance,
-/// or what the rounding of a file with few digits explains.
+/// The residual (mg) up to which an import is accepted unless the user says otherwise: tolerance::kBalance of
+/// the internal unit, so that no unit that the scene names decides what is accepted; or what the rounding of
+/// a file with few digits explains.
 double default_balance_tolerance(const ImportedPacking& imported);
 
 /// Throws InputError with advice if a residual is above `tolerance` (mg). A packing whose forces are unknown

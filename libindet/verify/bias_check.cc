@@ -150,9 +150,9 @@ class BiasCheck {
     const double difference = column("mean_R")[contact] - uniform_.center[2 * contact] / unit_;
     const double freedom = (a + b) * (a + b) / (a * a / (effective - 1) + b * b / (uniform_effective - 1));
     const double square = difference * difference / (a + b);
-    compare_.equal(column("p_mean")[contact],
-                   boost::math::ibeta(freedom / 2, 0.5, freedom / (freedom + square)),
-                   fmt::format("p_mean of contact {}", contact), tolerance::kProbabilityAgreement, 0);
+    compare_.equal_probability(column("p_mean")[contact],
+                               boost::math::ibeta(freedom / 2, 0.5, freedom / (freedom + square)),
+                               fmt::format("p_mean of contact {}", contact));
   }
 
   /// The largest k with k p-values of at most rate · k/m among all m.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libindet/verify/rebuilt_problem.h"
 
@@ -19,6 +20,13 @@ bool Comparisons::equal(double stored, double expected, const std::string& name,
   const bool same = stored == expected || (std::isnan(stored) && std::isnan(expected)) ||
                     std::abs(stored - expected) <= tolerance * std::max(scale, std::abs(expected));
   return require(same, "{}: {} is stored, {} is right", name, stored, expected);
+}
+
+bool Comparisons::equal_probability(double stored, double expected, const std::string& name) {
+  constexpr double kSmallest = std::numeric_limits<double>::min();
+  const double tolerance =
+      tolerance::kProbabilityAgreement * std::fmax(1, -std::log(std::fmax(expected, kSmallest)));
+  return equal(stored, expected, name, tolerance, kSmallest / tolerance);
 }
 
 bool Comparisons::equal_count(std::int64_t stored, std::int64_t expected, const std::string& name) {

@@ -32,6 +32,10 @@ class Comparisons {
   /// |expected|).
   bool equal(double stored, double expected, const std::string& name,
              double tolerance = tolerance::kAgreement, double scale = 1);
+  /// For p-values. A tail e^−x carries the rounding of x times x, so that the tolerance
+  /// tolerance::kProbabilityAgreement is relative to p max(1, −ln p); numbers below the smallest normal one
+  /// have lost their digits, and agree.
+  bool equal_probability(double stored, double expected, const std::string& name);
   bool equal_count(std::int64_t stored, std::int64_t expected, const std::string& name);
 
   /// Puts a contact state (mg) into the account of states. Returns the larger of its imbalance and its

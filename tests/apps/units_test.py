@@ -16,63 +16,10 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import program  # noqa: E402
+from units import Units, assert_scaled, numbers  # noqa: E402
 
 # Exponents of length, mass and acceleration.
 POWERS = [(40, 0, 0), (-40, 0, 0), (0, 40, 0), (0, -40, 0), (0, 0, 40), (0, 0, -40), (40, -40, 40), (-40, 40, 40)]
-
-
-class Units:
-    """What a number of each unit is multiplied by."""
-
-    def __init__(self, length, mass, acceleration):
-        self.length, self.mass, self.acceleration = length, mass, acceleration
-        self.force = mass * acceleration
-
-    def factor(self, unit):
-        velocity = np.sqrt(self.length * self.acceleration)
-        return {"1": 1, "mg": 1, "rad": 1, "length": self.length, "mass": self.mass, "force": self.force,
-                "force2": self.force**2, "force/radian": self.force, "mass*length^2": self.mass * self.length**2,
-                "length/time": velocity, "rad/time": velocity / self.length,
-                "force, force, force*length": np.array([self.force, self.force, self.force * self.length])}[unit]
-
-    def scene(self, packing, force_unit=0.0):
-        """The CSV scene of a packing file in these units."""
-        with h5py.File(packing) as file:
-            disks = file["particles/disks"]
-            columns = np.column_stack([disks["position"][:] * self.length, disks["radius"][:] * self.length,
-                                       disks["mass"][:] * self.mass])
-            walls = np.column_stack([file["walls/point"][:] * self.length, file["walls/normal"][:]])
-            contacts = file["contacts"]
-            bodies = np.column_stack([contacts["body_a"][:], contacts["body_b"][:]])
-            forces = np.column_stack([contacts["normal"][:], contacts["mu"][:][:, None],
-                                      contacts["R"][:][:, None] * self.force, contacts["T"][:][:, None] * self.force])
-            gravity = file["parameters"].attrs["gravity"] * self.acceleration
-        text = f"gravity = [{float(gravity[0])!r}, {float(gravity[1])!r}]\n"
-        if force_unit > 0:
-            text += f"force_unit = {force_unit * self.force!r}\n"
-
-        def rows(*tables):
-            return "\n".join(",".join(repr(value) for row in line for value in np.atleast_1d(row).tolist())
-                             for line in zip(*tables, strict=True)) + "\n"
-
-        return {"disks.csv": "id,x,y,radius,mass\n" + rows(np.arange(len(columns)), columns),
-                "walls.csv": "id,px,py,nx,ny\n" + rows(np.arange(len(walls)), walls),
-                "contacts.csv": "a,b,nx,ny,mu,R,T\n" + rows(bodies, forces), "scene.toml": text}
-
-
-def numbers(file):
-    """{path: (values, unit)} of every dataset of numbers, and of the attributes that are pure numbers or in mg."""
-    found = {}
-    with h5py.File(file) as content:
-        def take(name, item):
-            if isinstance(item, h5py.Dataset) and item.dtype.kind in "fiu":
-                found[name] = (item[:], item.attrs["unit"])
-            if isinstance(item, h5py.Group) and name in ("equilibrium", "sampling", "extremal"):
-                for key, value in item.attrs.items():
-                    if isinstance(value, (int, float, np.number)):
-                        found[f"{name}@{key}"] = (np.asarray(value), "force" if key == "force_unit" else "1")
-        content.visititems(take)
-    return found
 
 
 class ScaledScenes(program.ProgramTest):
@@ -97,23 +44,21 @@ class ScaledScenes(program.ProgramTest):
         for seed in (1, 2):
             origin = self.simulated(seed)
             for force_unit in (0.0, 1e-5):  # mg, and one that is not that of the problem
-                expected, compared = self.make(f"s{seed}-{force_unit}", Units(1, 1, 1).scene(origin, force_unit))
+                expected, compared = self.make(f"s{seed}-{force_unit}", Units().scene(origin, force_unit))
                 for powers in POWERS if force_unit == 0 else POWERS[-1:]:
-                    units = Units(*(2.0**power for power in powers))
+                    units = Units.of_powers(powers)
                     name = f"s{seed}-{force_unit}-{'_'.join(map(str, powers))}"
                     found, again = self.make(name, units.scene(origin, force_unit))
                     for part, values in expected.items():
-                        self.assertEqual(values.keys(), found[part].keys())
-                        for path, (value, unit) in values.items():
-                            with self.subTest(seed=seed, powers=powers, file=part, path=path):
-                                np.testing.assert_array_equal(found[part][path][0], value * units.factor(unit))
+                        with self.subTest(seed=seed, powers=powers, file=part):
+                            assert_scaled(self, values, found[part], units)
                     for method, other in zip(compared["methods"], again["methods"], strict=True):
                         method.pop("seconds", None), other.pop("seconds", None)
                         self.assertEqual(method, other)
 
     def test_powers_of_ten_move_results_by_the_rounding_of_the_input_alone(self):
         origin = self.simulated(3)
-        packing = self.packing(Units(1, 1, 1).scene(origin), "one")
+        packing = self.packing(Units().scene(origin), "one")
         self.run_indet("analyze", packing, "-o", "one.ranges.h5")
         expected = numbers(self.folder / "one.ranges.h5")
         mg = expected["equilibrium@force_unit"][0]
@@ -137,6 +82,31 @@ class ScaledScenes(program.ProgramTest):
             self.run_indet("verify", f"{name}.uniform.h5")
             self.assertEqual(shown["stopped_by"], "convergence")
             self.assertLess(shown["worst_residual"], 1e-12)
+
+    def test_what_import_accepts_as_balanced_does_not_depend_on_the_unit_of_force_that_the_scene_names(self):
+        R = 0.5 / np.cos(np.pi / 6)
+        # A unit up to 1000 times off is the internal one.
+        for relative, status in ((0, 0), (1e-10, 0), (0.01, 3)):
+            for unit in (None, 1e-12, 1e-5, 1e-2, 30.0, 1e5, 1e7):
+                scene = program.groove(mu=0)
+                force = R * (1 + relative)
+                scene["contacts.csv"] = f"a,b,R,T\n0,-1,{force!r},0\n0,-2,{force!r},0\n"
+                if unit is not None:
+                    scene["scene.toml"] += f"force_unit = {unit!r}\n"
+                name = f"{relative}-{unit}"
+                self.write(name, scene)
+                with self.subTest(relative=relative, unit=unit):
+                    done = self.run_indet("import", "--format", "csv", name, "-o", f"{name}.h5", status=status)
+                    self.assertEqual(done.stderr == "", status == 0)
+
+    def test_a_simulation_keeps_forces_that_are_small_in_the_unit_that_the_scene_names_alone(self):
+        scene = {"disks.csv": "id,x,y,radius,mass\n0,0,1,1,1\n1,5,1,1,1e-6\n",
+                 "walls.csv": "id,px,py,nx,ny,name\n0,0,0,0,1,floor\n", "contacts.csv": "a,b\n0,-1\n1,-1\n"}
+        for unit in (1.0, 1e5):
+            packing = self.packing({**scene, "scene.toml": f"gravity = [0, -1]\nmu = 0.3\nforce_unit = {unit}\n"}, f"{unit}")
+            self.run_indet("simulate", "--protocol", "cd1", "--from", packing, "--time-limit", "3", "-o", f"{unit}-s.h5")
+            with h5py.File(self.folder / f"{unit}-s.h5") as file:
+                np.testing.assert_allclose(file["contacts/R"][:], [1, 1e-6], rtol=1e-9)
 
     def test_a_uniform_sample_does_not_depend_on_the_unit_of_force_that_the_scene_names(self):
         results = {}

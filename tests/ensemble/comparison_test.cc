@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/presentation/paper_choices.h"
 #include "apps/ensemble/presentation/samples.h"
+#include "apps/ensemble/presentation/verdict.h"
 
 namespace indet {
 namespace {

@@ -54,6 +54,24 @@ class ReportTest(program.ProgramTest):
         self.assertIn('data-hidden="0"', body)
         self.assertIn('data-fetched="0"', body)
 
+    def test_what_is_not_known_is_no_number(self):
+        self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", "one")
+        self.run_indet("ensemble", "--seeds", "2", "--disks", "12", "--protocols", "cd1", "--samples", "0", "--uniform-seeds",
+                       "0", "-o", "simulated")
+        self.write("p", program.pyramid())
+        self.run_indet("import", "--format", "csv", "p", "-o", "p.h5")
+        self.run_indet("ensemble", "p.h5", "-o", "file")
+        for folder in ("one", "simulated", "file"):
+            self.run_indet("report", folder)
+            page = (self.folder / folder / "report.html").read_text()
+            text = re.sub(r"<[^>]*>", " ", re.sub(r"<(svg|style).*?</\1>", "", page, flags=re.DOTALL))
+            for wrong in (r"\bnan\b", r"\binf\b", r"\b1 values\b", r"– (mg|%)", r"±\s*(mg|%|\.)"):
+                found = re.search(rf".{{0,80}}{wrong}.{{0,30}}", text)
+                self.assertIsNone(found, f"{folder}: {found and found.group(0)}")
+            for path in (self.folder / folder / "figures").glob("*.csv"):
+                if path.name in ("comparison.csv", "uniform.csv"):
+                    self.assertNotRegex(path.read_text(), r"\bnan\b")
+
     def test_every_figure_is_there_as_vectors_numbers_and_script(self):
         folder = self.make() / "figures"
         for name in FIGURES:

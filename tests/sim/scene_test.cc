@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "libindet/base/error.h"
+#include "libindet/base/random.h"
 #include "libsim/scene_toml.h"
 #include "tests/sim/worlds.h"
 #include "tests/support/temporary_folder.h"
@@ -43,6 +44,23 @@ TEST(Scene, DisksStayApartAndInside) {
                   world.radius[i] + world.radius[j]);
       }
     }
+  }
+}
+
+/// The sizes that the scene chooses for itself fit its disks, however they round.
+TEST(Scene, TheSizesThatItChoosesFit) {
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    Scene scene;
+    scene.radius_max = std::exp(random.uniform(-5, 5));
+    scene.radius_min = scene.radius_max * random.uniform(0.3, 1);
+    scene.columns = 1 + i % 7;
+    scene.disks = 1 + i % 97;
+    ASSERT_EQ(scene.defect(), std::nullopt) << scene.radius_max;
+    scene.width = 2 * scene.radius_max * scene.columns;
+    ASSERT_EQ(scene.defect(), std::nullopt) << scene.radius_max;
+    scene.width *= 1 - 1e-9;
+    ASSERT_NE(scene.defect(), std::nullopt) << scene.radius_max;
   }
 }
 

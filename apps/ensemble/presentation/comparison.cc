@@ -67,16 +67,18 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
     const Estimate mean = mean_of(samples.runs(family.protocol, "mean_R"));
     const bool is_known = family.protocol == Protocol::kCd1;
     rows.push_back({fmt::format("mean R, {}", family.name()), is_known ? "9.3 mg" : kNotGiven,
-                    text_of_force(mean), is_known ? verdict(mean, 9.3, 0) : kNotDecided});
+                    text_of(mean, 1, "mg"), is_known ? verdict(mean, 9.3, 0) : kNotDecided});
   }
   for (const Family& family : kFamilies) {
     const std::vector<double> values = samples.runs(family.protocol, "r");
     const Estimate r = mean_of(values);
     if (std::isnan(r.value)) continue;
-    rows.push_back({fmt::format("r of perturb-and-resolve [38], {}", family.name()),
-                    fmt::format("{} mg, s.d. 12 mg", paper_radius(family)),
-                    fmt::format("{}, s.d. {:.1f} mg", text_of_force(r), standard_deviation(values)),
-                    verdict(r, family.paper_r, family.paper_r_error)});
+    const double deviation = standard_deviation(values);
+    rows.push_back(
+        {fmt::format("r of perturb-and-resolve [38], {}", family.name()),
+         fmt::format("{} mg, s.d. 12 mg", paper_radius(family)),
+         text_of(r, 1, "mg") + (std::isnan(deviation) ? "" : fmt::format(", s.d. {:.1f} mg", deviation)),
+         verdict(r, family.paper_r, family.paper_r_error)});
   }
   struct Distance {
     const char* name;
@@ -89,7 +91,7 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
                             Distance{"distance MD-2 – CD-2", Protocol::kMd2, "distance_cd2", 45, 3}}) {
     const Estimate ours = mean_of(samples.runs(d.protocol, d.column));
     if (std::isnan(ours.value)) continue;
-    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of_force(ours),
+    rows.push_back({d.name, fmt::format("{:g} ± {:g} mg", d.value, d.error), text_of(ours, 1, "mg"),
                     verdict(ours, d.value, d.error)});
   }
   for (const bool md : {false, true}) {
@@ -106,7 +108,7 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
         const Estimate ours = main_maximum(data);
         rows.push_back(
             {fmt::format("main maximum of d{}, {}, {} (Fig. 8)", component, md ? "MD" : "CD", states),
-             fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of_force(ours),
+             fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of(ours, 1, "mg"),
              verdict_of(is_about(ours, paper))});
       }
     }

@@ -48,15 +48,15 @@ void add_local_indeterminacy(const Samples& samples, std::vector<Comparison>& ro
       const Estimate tenth = fit_tail(*data, quantile(*data, 0.9)).decay;
       const Estimate end = fit_tail(*data, quantile(*data, 0.97)).decay;
       rows.push_back({fmt::format("{}, {}: tail (Fig. 7)", name, simulator), "exponential",
-                      fmt::format("decay length of the largest 10 %: {}, 3 %: {}", text_of_force(tenth),
-                                  text_of_force(end)),
+                      fmt::format("decay length of the largest 10 %: {}, 3 %: {}", text_of(tenth, 1, "mg"),
+                                  text_of(end, 1, "mg")),
                       verdict(tenth, end.value, end.error)});
     }
     const Estimate mean_cd = grouped_mean(cd);
     const Estimate mean_md = grouped_mean(md);
     if (std::isnan(mean_cd.value) || std::isnan(mean_md.value)) continue;
     rows.push_back({fmt::format("mean {}, CD and MD (Fig. 7)", name), "MD slightly larger",
-                    fmt::format("{}, {}", text_of_force(mean_cd), text_of_force(mean_md)),
+                    fmt::format("{}, {}", text_of(mean_cd, 1, "mg"), text_of(mean_md, 1, "mg")),
                     verdict_of_order(mean_md, mean_cd)});
   }
 }

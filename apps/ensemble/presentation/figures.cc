@@ -15,6 +15,7 @@
 #include "apps/ensemble/presentation/samples.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
 #include "libindet/base/constants.h"
+#include "libindet/base/counted.h"
 #include "libindet/range/analyze.h"
 #include "libindet/statistics/distribution.h"
 
@@ -147,8 +148,9 @@ std::vector<Figure> dimensions(const EnsembleTables& tables) {
       .id = "fig06b",
       .title = "Fig. 6b: sliding contacts",
       .caption =
-          "Number Ms of sliding contacts (μR − |T| < 1e-9 mg; one that transmits nothing counts twice) "
-          "of the simulated state against dim F.",
+          "Number Ms of sliding contacts of the simulated state against dim F. A contact slides if "
+          "μR − |T| < 1e-9 mg, or 1e-9 of about the largest load on a disk where the scene names a unit of "
+          "force far from it; one that transmits nothing counts twice.",
       .claim = "Ms ≤ 2M − 3N in all packings; CD near 0, MD-2 most, MD-1 between.",
       .finding = fmt::format("{} of {} packings have more than 2M − 3N sliding contacts.", above,
                              tables.runs.rows()),
@@ -162,14 +164,15 @@ std::vector<Figure> dimensions(const EnsembleTables& tables) {
 
 std::string tail_text(const char* name, const GroupedValues& data, double from) {
   const TailFit fit = fit_tail(data, from);
-  return fmt::format("{}: {:.2f} ± {:.2f} mg ({:.0f} values in {:.3g} … {:.3g} mg). ", name, fit.decay.value,
-                     fit.decay.error, fit.values, fit.from, fit.to);
+  if (std::isnan(fit.decay.value)) return fmt::format("{}: none. ", name);
+  return fmt::format("{}: {} ({} in {:.3g} … {:.3g} mg). ", name, text_of(fit.decay, 2, "mg"),
+                     counted(std::llround(fit.values), "value"), fit.from, fit.to);
 }
 
 std::string maximum_text(const char* name, const GroupedValues& data) {
   const Estimate maximum = main_maximum(data);
   if (std::isnan(maximum.value)) return fmt::format("{}: none. ", name);
-  return fmt::format("{}: {:.1f} ± {:.1f} mg. ", name, maximum.value, maximum.error);
+  return fmt::format("{}: {}. ", name, text_of(maximum, 1, "mg"));
 }
 
 std::vector<Curve> pair_of_methods(const Samples& samples, const char* normal, const char* tangential) {
@@ -220,7 +223,7 @@ Figure global(const Samples& samples, const char* id, const char* title,
                     "force of a contact. As many states attain an optimum, they measure which of these a "
                     "method takes as much as they measure F. ",
                 .claim = "Two maxima: near 0, and at about 60 mg (CD) and 75 mg (MD).",
-                .finding = "Main maximum between a tenth of the 99 % quantile and that. ",
+                .finding = "Main maximum, sought from a tenth of the 99 % quantile to that quantile. ",
                 .panels = {}};
   for (const StateChoice& choice : choices) {
     const std::vector<Curve> curves = pair_of_methods(samples, choice.normal, choice.tangential);
@@ -251,7 +254,7 @@ Figure weak_and_strong(const Samples& samples, const char* id, const char* title
       "Mean R = {:.2f} mg. In the first bin, 0 … {:g} mg: ", samples.mean_force(Protocol::kCd1), width);
   for (const Curve& c : curves) {
     const Estimate f = fraction_between(c.data, 0, width);
-    finding += fmt::format("{}: {:.3f} ± {:.3f} of its contacts. ", c.name, f.value, f.error);
+    finding += fmt::format("{}: {} of its contacts. ", c.name, text_of(f, 3));
   }
   return {.id = id,
           .title = title,
@@ -280,13 +283,11 @@ Figure places(const Samples& samples) {
     panel.title = label;
     figure.panels.push_back(panel);
     const auto difference = [&](std::size_t a, std::size_t b) {
-      return curves[a].data.values.empty() || curves[b].data.values.empty()
-                 ? kNaN
-                 : kolmogorov_distance(curves[a].data, curves[b].data);
+      const bool known = !curves[a].data.values.empty() && !curves[b].data.values.empty();
+      return text_of({known ? kolmogorov_distance(curves[a].data, curves[b].data) : kNaN, kNaN}, 3);
     };
-    figure.finding +=
-        fmt::format("{}: history: CD {:.3f}, MD {:.3f}; method: falling {:.3f}, at rest {:.3f}. ", label,
-                    difference(0, 1), difference(2, 3), difference(0, 2), difference(1, 3));
+    figure.finding += fmt::format("{}: history: CD {}, MD {}; method: falling {}, at rest {}. ", label,
+                                  difference(0, 1), difference(2, 3), difference(0, 2), difference(1, 3));
   }
   return figure;
 }
@@ -306,7 +307,7 @@ Figure extremal_forces(const Samples& samples, const char* id, const char* title
   finding += "Fraction of contacts beyond 60 mg. ";
   for (const Curve& c : curves) {
     const Estimate f = fraction_between(c.data, 60, 1e9);
-    finding += fmt::format("{}: {:.4f} ± {:.4f}. ", c.name, f.value, f.error);
+    finding += fmt::format("{}: {}. ", c.name, text_of(f, 4));
   }
   return {.id = id,
           .title = title,

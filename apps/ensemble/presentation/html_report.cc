@@ -143,17 +143,20 @@ std::string table_of_runs(const EnsembleTables& tables) {
   for (const sim::ProtocolProperties& properties : sim::kProtocols) {
     const sim::Protocol protocol = properties.protocol;
     if (!samples.has({protocol})) continue;
+    const bool simulates = properties.simulator.has_value();
     int still = 0;
     for (std::size_t row = 0; row < tables.runs.rows(); ++row) {
       if (samples.protocols()[row] == protocol && tables.runs.text("ending", row) == "static") ++still;
     }
     const std::vector<double> contacts = samples.runs(protocol, "contacts");
+    const auto mean = [&](const char* column, const char* format) {
+      const double value = mean_of(samples.runs(protocol, column)).value;
+      return std::isnan(value) ? "–" : fmt::format(fmt::runtime(format), value);
+    };
     text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.1e}</td><td>{}</td></"
-        "tr>\n",
-        properties.name, properties.description, contacts.size(), mean_of(contacts).value,
-        mean_of(samples.runs(protocol, "mean_R")).value,
-        mean_of(samples.runs(protocol, "mean_overlap")).value, still);
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        properties.name, properties.description, contacts.size(), mean("contacts", "{:.1f}"),
+        mean("mean_R", "{:.2f}"), mean("mean_overlap", "{:.1e}"), simulates ? std::to_string(still) : "–");
   }
   return text + "</table>\n";
 }
@@ -164,6 +167,7 @@ std::string table_of_times(const EnsembleTables& tables) {
   for (const auto& column : tables.timings.columns()) {
     double sum = 0;
     double longest = 0;
+    if (std::isnan(mean_of(column.reals).value)) continue;  // not done for any packing
     for (const double value : column.reals) {
       if (std::isnan(value)) continue;
       sum += value;
@@ -242,11 +246,10 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
   html += kStyle;
   html += "</style></head><body>\n<h1>Force indeterminacy of an ensemble of packings</h1>\n";
   html += fmt::format(
-      "<p>{}, {}. Forces and distances are in units of mg, the mean weight of a disk. ± is one standard "
-      "error "
-      "over the seeds. The paper is S. McNamara and H. J. Herrmann, Phys. Rev. E 70, 061303 (2004), N = 95, "
-      "μ = "
-      "0.3, 60 seeds; numbers in brackets are its equations.</p>\n",
+      "<p>{}, {}. Forces and distances are in units of mg, the mean weight of a disk, or the unit of force "
+      "that a scene names. ± is one standard error over the seeds. The paper is S. McNamara and H. J. "
+      "Herrmann, Phys. Rev. E 70, 061303 (2004), N = 95, μ = 0.3, 60 seeds; numbers in brackets are its "
+      "equations.</p>\n",
       counted(static_cast<std::int64_t>(runs.rows()), "packing"),
       counted(static_cast<std::int64_t>(contents.tables.contacts.rows()), "contact"));
   html += "<h2>What was run (Fig. 4)</h2>\n" + table_of_runs(contents.tables);

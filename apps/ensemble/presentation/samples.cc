@@ -35,6 +35,11 @@ std::string text_of(const Estimate& estimate, int digits) {
   return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, digits, estimate.error, digits);
 }
 
+std::string text_of(const Estimate& estimate, int digits, const char* unit) {
+  const std::string number = text_of(estimate, digits);
+  return std::isnan(estimate.value) ? number : fmt::format("{} {}", number, unit);
+}
+
 double largest(const GroupedValues& data) {
   double high = 0;
   for (const double value : data.values) {

@@ -14,6 +14,8 @@ using Protocols = std::vector<sim::Protocol>;
 
 /// "33.1 ± 1.4", the value alone if its error is unknown, "–" if there is none.
 std::string text_of(const Estimate& estimate, int digits = 1);
+/// The same with a unit, "33.2 ± 1.4 mg".
+std::string text_of(const Estimate& estimate, int digits, const char* unit);
 
 /// The largest finite value; 0 if there is none.
 double largest(const GroupedValues& data);

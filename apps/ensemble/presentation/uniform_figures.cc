@@ -96,12 +96,13 @@ Figure forces(const Samples& samples) {
   std::string finding = "Decay lengths beyond 30 mg. ";
   for (const Curve& c : pooled) {
     const TailFit fit = fit_tail(c.data, 30);
-    finding += fmt::format("{}: {} mg. ", c.name, text_of(fit.decay, 2));
+    finding += fmt::format("{}: {}. ", c.name, text_of(fit.decay, 2, "mg"));
   }
   finding += "Standardised forces beyond ±2: ";
   for (const Curve& c : standard) {
     const Estimate inside = fraction_between(c.data, -2, 2);
-    finding += fmt::format("{}: {} %. ", c.name, text_of({100 * (1 - inside.value), 100 * inside.error}, 2));
+    finding +=
+        fmt::format("{}: {}. ", c.name, text_of({100 * (1 - inside.value), 100 * inside.error}, 2, "%"));
   }
   const double width = std::max(1.0, round_width(largest_of(pooled), 40));
   std::vector<Panel> panels = {panel_of(pooled, "R (mg)", true, std::ceil(largest_of(pooled)), width),
@@ -147,8 +148,8 @@ Figure uniform_places(const Samples& samples) {
       const bool sampled = c.name[0] == 'u' || c.name[0] == 'p';
       const Estimate low = fraction_between(c.data, 0, 0.05);
       figure.finding +=
-          fmt::format("{}{}: {}, {} % below 0.05. ", c.name, sampled ? (md ? " (MD)" : " (CD)") : "",
-                      text_of(grouped_mean(c.data), 3), text_of({100 * low.value, 100 * low.error}, 1));
+          fmt::format("{}{}: {}, {} below 0.05. ", c.name, sampled ? (md ? " (MD)" : " (CD)") : "",
+                      text_of(grouped_mean(c.data), 3), text_of({100 * low.value, 100 * low.error}, 1, "%"));
     }
   }
   return figure;
@@ -195,8 +196,8 @@ Figure tests(const Samples& samples) {
         return;
       panel.series.push_back(cumulative(name, data, mark, colour));
       const Estimate small = fraction_between(data, -1, std::nextafter(0.05, 1.0));
-      figure.finding += fmt::format("{} {}: {} %. ", i == 0 ? "Means," : "Distributions,", name,
-                                    text_of({100 * small.value, 100 * small.error}, 1));
+      figure.finding += fmt::format("{} {}: {}. ", i == 0 ? "Means," : "Distributions,", name,
+                                    text_of({100 * small.value, 100 * small.error}, 1, "%"));
     };
     add("CD", samples.of(kCd, column), Mark::kLine, 0);
     add("MD", samples.of(kMd, column), Mark::kDashed, 3);
@@ -253,8 +254,8 @@ Figure states(const Samples& samples, const char* id, const char* title,
           "samples of its polytope is at most that on the axis. Dotted: all states equally likely.",
       .claim = "",
       .finding =
-          "50 if all states are equally likely; p: probability of percentiles as far from uniform as "
-          "these (Kolmogorov–Smirnov). ",
+          "50 if all states are equally likely; p, of four packings or more: probability of percentiles "
+          "as far from uniform as these (Kolmogorov–Smirnov). ",
       .panels = {}};
   for (const auto& [column, label] : {left, right})
     figure.panels.push_back(percentiles(samples, column, label, figure.finding));

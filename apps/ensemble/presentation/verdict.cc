@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/ensemble/presentation/samples.h"
-
 namespace indet {
 
 const char* verdict(const Estimate& ours, double paper, double paper_error) {

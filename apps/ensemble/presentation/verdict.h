@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "libindet/statistics/bootstrap.h"
 
 namespace indet {
@@ -26,8 +24,5 @@ const char* verdict_of_order(const Estimate& large, const Estimate& small);
 
 /// Whether we find what the paper gives without an error: within 10 %, or two standard errors of ours.
 bool is_about(const Estimate& ours, double paper);
-
-/// "9.6 ± 0.2 mg".
-std::string text_of_force(const Estimate& e);
 
 }  // namespace indet
