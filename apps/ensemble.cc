@@ -139,7 +139,7 @@ void print_molecular_dynamics(const EnsembleConfig& config, const std::string& p
       }))
     return;
   fmt::print(
-      "molecular dynamics: preset {}, stiffness {:.3g} mg/r_max, damping {:.3g} mg/r_max sqrt(r_max/g)\n",
+      "molecular dynamics: preset {}, stiffness {:.10g} mg/r_max, damping {:.10g} mg/r_max sqrt(r_max/g)\n",
       preset, config.molecular_dynamics.k, config.molecular_dynamics.gamma);
 }
 

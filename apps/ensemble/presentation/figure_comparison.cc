@@ -93,6 +93,7 @@ void add_places(const Samples& samples, std::vector<Comparison>& rows) {
   }
   const auto add = [&](const Histories& h, const char* what, const char* paper, const Estimate& fallen,
                        const Estimate& placed, int digits, const char* unit, bool fallen_larger) {
+    if (std::isnan(fallen.value) || std::isnan(placed.value)) return;
     rows.push_back({fmt::format("{}: {} (Fig. 11)", what, h.names()), paper,
                     fmt::format("{}{}, {}{}", text_of(fallen, digits), unit, text_of(placed, digits), unit),
                     fallen_larger ? verdict_of_order(fallen, placed) : verdict_of_order(placed, fallen)});

@@ -21,6 +21,4 @@ bool is_about(const Estimate& ours, double paper) {
   return std::abs(ours.value - paper) <= std::max(0.1 * paper, 2 * ours.error);
 }
 
-std::string text_of_force(const Estimate& e) { return std::isnan(e.value) ? text_of(e) : text_of(e) + " mg"; }
-
 }  // namespace indet
