@@ -7,9 +7,11 @@ import json
 import os
 import pathlib
 import pty
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import h5py
@@ -18,7 +20,9 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import program
 
-TINY = ["--seeds", "2", "--disks", "12", "--samples", "5"]
+SMALL = ["--disks", "12", "--samples", "5", "--uniform-seeds", "1"]
+TINY = ["--seeds", "2", *SMALL]
+LONGER = ["--disks", "30", "--samples", "5", "--uniform-seeds", "1"]  # long enough to be interrupted
 
 
 def table(path, name):
@@ -32,11 +36,23 @@ def content(path):
 
 
 class EnsembleTest(program.ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        """Makes the ensemble with which most tests begin, once."""
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = pathlib.Path(folder.name) / "tiny"
+        done = program.run([program.INDET, "ensemble", *TINY, "-o", str(cls.made), "--threads", "2"], folder.name)
+        assert done.returncode == 0, done.stderr
+
+    def made_ensemble(self, name):
+        shutil.copytree(self.made, self.folder / name)
+
     def ensemble(self, folder, *more, status=0):
         return self.run_indet("ensemble", *TINY, "-o", folder, *more, status=status)
 
     def test_tables_hold_what_the_members_hold(self):
-        self.ensemble("e", "--threads", "2")
+        self.made_ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
         self.assertEqual([name.decode() for name in runs["member"]],
@@ -58,7 +74,7 @@ class EnsembleTest(program.ProgramTest):
             self.run_indet("verify", f"e/members/{name.decode()}.h5")
 
     def test_distances_compare_contacts_by_their_bodies(self):
-        self.ensemble("e")
+        self.made_ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         states = []
         for name in ("cd1-0001", "md2-0001"):
@@ -74,7 +90,7 @@ class EnsembleTest(program.ProgramTest):
         self.assertTrue(np.isnan(runs["distance_cd1"][list(runs["member"]).index(b"md1-0001")]))
 
     def test_killed_runs_go_on_to_the_same_tables(self):
-        self.ensemble("whole")
+        self.made_ensemble("whole")
         kills = 0
         for delay in (0.15, 0.4, 0.8, 1.2):
             process = subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "killed", "--threads", "2"],
@@ -90,7 +106,7 @@ class EnsembleTest(program.ProgramTest):
         self.assertEqual(leftovers, [])
 
     def test_a_finished_member_is_skipped_and_a_damaged_or_different_one_is_not(self):
-        self.ensemble("e")
+        self.made_ensemble("e")
         self.assertEqual(json.loads(self.ensemble("e", "--json").stdout)["skipped"], 8)
         damaged = self.folder / "e/members/md1-0000.h5"
         damaged.write_bytes(damaged.read_bytes()[:3000])
@@ -103,11 +119,12 @@ class EnsembleTest(program.ProgramTest):
         self.assertEqual((again["done"], again["skipped"]), (1, 7))
         other = json.loads(self.ensemble("e", "--mu", "0.5", "--json").stdout)
         self.assertEqual(other["done"], 8)
-        more = json.loads(self.run_indet("ensemble", "--seeds", "3", *TINY[2:], "--mu", "0.5", "-o", "e", "--json").stdout)
+        more = json.loads(
+            self.run_indet("ensemble", "--seeds", "3", *SMALL, "--mu", "0.5", "-o", "e", "--json").stdout)
         self.assertEqual((more["done"], more["skipped"]), (4, 8))
 
     def test_parts_join_to_the_same_tables(self):
-        self.ensemble("whole")
+        self.made_ensemble("whole")
         for part, members in enumerate(["0-1", "2-3", "4-5", "6-7"]):
             self.ensemble(f"p{part}", "--members", members)
         self.assertFalse((self.folder / "p0/ensemble.h5").exists())
@@ -132,7 +149,7 @@ class EnsembleTest(program.ProgramTest):
             self.assertEqual(len(file["ensemble/missing"]), 6)
 
     def test_uniform_sampling_of_a_member_is_that_of_the_command(self):
-        self.run_indet("ensemble", "--seeds", "1", "--disks", "14", "--samples", "60", "-o", "e")
+        self.run_indet("ensemble", "--seeds", "1", "--protocols", "cd1,md2", "--disks", "14", "--samples", "60", "-o", "e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
         sampled = table(self.folder / "e/ensemble.h5", "sampled")
@@ -173,18 +190,19 @@ class EnsembleTest(program.ProgramTest):
                 self.assertAlmostEqual(bias["ratio"], bias["r"] / u["sampling"].attrs["r"], places=12)
 
     def test_uniform_seeds_choose_packings_and_leave_the_others_as_they_are(self):
-        self.ensemble("e", "--uniform-seeds", "1")
+        self.made_ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         self.assertTrue(((runs["uniform"] != b"") == (runs["seed"] == 0)).all())
         self.assertTrue(np.isnan(runs["uniform_r"][runs["seed"] == 1]).all())
-        more = json.loads(self.ensemble("e", "--uniform-seeds", "all", "--json").stdout)
+        arguments = ["ensemble", *TINY[:-1]]
+        more = json.loads(self.run_indet(*arguments, "all", "-o", "e", "--json").stdout)
         self.assertEqual((more["done"], more["skipped"]), (4, 4))
         runs = table(self.folder / "e/ensemble.h5", "runs")
         self.assertTrue((runs["uniform"] != b"").all())
         for row in np.flatnonzero(runs["status"] == b"unbounded"):
             self.assertEqual(runs["uniform"][row], b"unbounded")
         for wrong in ("-1", "some", "3x"):
-            self.assertIn("expected a number, or all", self.ensemble("f", "--uniform-seeds", wrong, status=2).stderr)
+            self.assertIn("expected a number, or all", self.run_indet(*arguments, wrong, "-o", "f", status=2).stderr)
 
     def test_the_walk_of_the_paper_is_that_of_the_command(self):
         self.ensemble("e", "--paper-walk", "1")
@@ -228,7 +246,8 @@ class EnsembleTest(program.ProgramTest):
 
     def test_threads_change_nothing(self):
         for threads in ("1", "3"):
-            self.run_indet("ensemble", *TINY[:-1], "40", "-o", threads, "--threads", threads)
+            self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", threads,
+                           "--threads", threads)
         self.assertEqual(content(self.folder / "1/ensemble.h5"), content(self.folder / "3/ensemble.h5"))
         self.assertGreater(len(table(self.folder / "1/ensemble.h5", "sampled")["run"]), 0)
 
@@ -267,7 +286,7 @@ class EnsembleTest(program.ProgramTest):
 
     def test_an_interrupt_leaves_whole_files_and_says_how_many(self):
         for number in (1, 4):  # of which the first ones are there already
-            error, done = self.interrupt("--seeds", "20", after=number)
+            error, done = self.interrupt("--seeds", "20", *LONGER, after=number)
             verb = "is" if done == 1 else "are"
             self.assertEqual(error, f"indet: interrupted; {done} of 80 packings {verb} done; the same command goes on\n")
         self.assertFalse((self.folder / "e/ensemble.h5").exists())
@@ -277,7 +296,7 @@ class EnsembleTest(program.ProgramTest):
                 self.assertEqual(file.attrs["complete"], 1)
 
     def test_progress_counts_the_packings_that_are_there_already(self):
-        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", "--threads", "1", "-o", "e"]
+        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", *LONGER, "--threads", "1", "-o", "e"]
         self.run_indet(*arguments, "--members", "0")
         here, terminal = pty.openpty()
         process = subprocess.Popen([program.INDET, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)
@@ -291,9 +310,8 @@ class EnsembleTest(program.ProgramTest):
         os.close(here)
 
     def test_processes_share_a_folder(self):
-        arguments = ["ensemble", "--seeds", "2", *TINY[2:]]
-        self.run_indet(*arguments, "-o", "alone")
-        started = [subprocess.Popen([program.INDET, *arguments, "-o", "e", "--threads", "2", "--json"], cwd=self.folder,
+        self.made_ensemble("alone")
+        started = [subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "e", "--threads", "2", "--json"], cwd=self.folder,
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
         for process in started:
             output, error = process.communicate(timeout=120)
@@ -306,7 +324,7 @@ class EnsembleTest(program.ProgramTest):
         self.assertEqual(len(list((self.folder / "e").rglob("*"))), 11)  # two files, the folder, and the members
 
     def test_a_folder_of_an_earlier_version_is_refused_until_it_is_renamed(self):
-        self.ensemble("e")
+        self.made_ensemble("e")
         whole = content(self.folder / "e/ensemble.h5")
         (self.folder / "e/members").rename(self.folder / "e/units")
         plan = self.folder / "e/ensemble.toml"

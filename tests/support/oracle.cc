@@ -1,10 +1,12 @@
 #include "tests/support/oracle.h"
 
+#include <lapacke.h>
+
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace indet::oracle {
 namespace {
@@ -32,6 +34,26 @@ class RowSet {
   Eigen::Index columns_;
   std::vector<Eigen::VectorXd> rows_;
 };
+
+struct Decomposition {
+  Eigen::MatrixXd U;
+  Eigen::VectorXd sigma;
+  Eigen::MatrixXd V;
+};
+
+/// By the iteration of QR (dgesvd), where the program divides and conquers (dgesdd); Eigen's own takes a
+/// minute to compile under sanitizers.
+Decomposition decompose(Eigen::MatrixXd a) {
+  const auto m = static_cast<lapack_int>(a.rows());
+  const auto n = static_cast<lapack_int>(a.cols());
+  Decomposition result{Eigen::MatrixXd(m, m), Eigen::VectorXd(std::min(m, n)), Eigen::MatrixXd(n, n)};
+  Eigen::VectorXd unconverged(std::min(m, n));
+  if (LAPACKE_dgesvd(LAPACK_COL_MAJOR, 'A', 'A', m, n, a.data(), m, result.sigma.data(), result.U.data(), m,
+                     result.V.data(), n, unconverged.data()) != 0)
+    throw std::runtime_error("oracle: LAPACK's dgesvd failed");
+  result.V.transposeInPlace();  // LAPACK gives Vᵀ
+  return result;
+}
 
 }  // namespace
 
@@ -71,6 +93,8 @@ Eigen::VectorXd paper_wrench(const Packing& packing) {
   return w;
 }
 
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) { return decompose(a).sigma; }
+
 DenseSolution solve_dense(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   DenseSolution result;
   if (a.rows() == 0 || a.cols() == 0) {
@@ -79,12 +103,11 @@ DenseSolution solve_dense(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
     result.residual = b.size() > 0 ? b.lpNorm<Eigen::Infinity>() : 0;
     return result;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const auto& sigma = svd.singularValues();
+  const auto [U, sigma, V] = decompose(a);
   while (result.rank < sigma.size() && sigma[result.rank] > 1e-11 * std::max(1e-300, sigma[0])) ++result.rank;
-  result.kernel = svd.matrixV().rightCols(a.cols() - result.rank);
-  const Eigen::VectorXd projected = svd.matrixU().leftCols(result.rank).transpose() * b;
-  result.particular = svd.matrixV().leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
+  result.kernel = V.rightCols(a.cols() - result.rank);
+  const Eigen::VectorXd projected = U.leftCols(result.rank).transpose() * b;
+  result.particular = V.leftCols(result.rank) * projected.cwiseQuotient(sigma.head(result.rank));
   result.residual = (a * result.particular - b).lpNorm<Eigen::Infinity>();
   return result;
 }

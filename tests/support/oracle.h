@@ -16,6 +16,9 @@ Eigen::MatrixXd paper_matrix(const Packing& packing);
 /// w, 3N, in force units.
 Eigen::VectorXd paper_wrench(const Packing& packing);
 
+/// Of a matrix with entries, descending.
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
+
 /// Dense rank, kernel and smallest solution of A x = b, by singular values (zero below 1e-11 of the largest).
 struct DenseSolution {
   int rank = 0;
