@@ -16,10 +16,12 @@ import numpy as np
 RUNS = (  # name, protocol, more arguments
     ("cd1", "cd1", []),
     ("cd2", "cd2", []),
-    ("md1 stiff", "md1", ["--preset", "stiff"]),
-    ("md2 stiff", "md2", ["--preset", "stiff"]),
     ("md1 paper", "md1", ["--preset", "paper"]),
     ("md2 paper", "md2", ["--preset", "paper"]),
+    ("md1 paper-overlap", "md1", ["--preset", "paper-overlap"]),
+    ("md2 paper-overlap", "md2", ["--preset", "paper-overlap"]),
+    ("md1 stiff", "md1", ["--preset", "stiff"]),
+    ("md2 stiff", "md2", ["--preset", "stiff"]),
 )
 
 
@@ -65,15 +67,16 @@ def main():
                 p, q = pair.split("–")
                 apart[pair].append(distance(state[p], state[q]))
     print(f"N = {disks}, seeds 0 … {seeds - 1}\n")
-    print("| | static | mean R (mg) | M | sliding | mean overlap (r_max) | raw residual (mg) | polished (mg) | s a run |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| | static | mean R (mg) | M | sliding, raw | polished | overlap, mean (largest) (r_max) | raw residual (mg) | polished (mg) | s a run |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     for run, _, _ in RUNS:
         r = results[run]
         column = lambda key: [x[key] for x in r]
+        span = lambda key: f"{np.mean(column(key)):.1f} ({min(column(key)):.0f} … {max(column(key)):.0f})"
         print(f"| {run} | {sum(x['ending'] == 'static' for x in r)}/{len(r)} | {mean(column('mean_R'))} "
               f"| {mean(column('contacts'))} ({min(column('contacts'))} … {max(column('contacts'))}) "
-              f"| {np.mean(column('sliding')):.1f} ({min(column('sliding')):.0f} … {max(column('sliding')):.0f}) "
-              f"| {np.mean(column('mean_overlap')):.1e} | {max(column('raw_residual')):.0e} "
+              f"| {span('raw_sliding')} | {span('sliding')} "
+              f"| {np.mean(column('mean_overlap')):.1e} ({max(column('largest_overlap')):.0e}) | {max(column('raw_residual')):.0e} "
               f"| {max(column('residual')):.0e} | {np.mean(column('wall')):.2f} |")
     print()
     for pair, values in apart.items():
