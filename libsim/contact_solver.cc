@@ -16,6 +16,13 @@ bool any_friction(std::span<const SolverContact> contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const SolverContact& c) { return c.mu > 0; });
 }
 
+/// Compliance or bias: what the sweeps over frozen packings do without.
+bool any_offset(std::span<const SolverContact> contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [](const SolverContact& c) {
+    return c.compliance != 0 || c.bias_n != 0 || c.bias_t != 0;
+  });
+}
+
 bool moves(const SolverContact& c) { return c.inverse_mass_b > 0 || c.inverse_spin_b > 0; }
 
 }  // namespace
@@ -98,7 +105,7 @@ void ContactSolver::store(std::span<SolverContact> contacts, std::span<SolverBod
   }
 }
 
-template <bool kFriction, bool kMeasure>
+template <bool kFriction, bool kOffset, bool kMeasure>
 double ContactSolver::sweep() {
   const Lanes zero = both(0);
   Lanes change = zero;
@@ -112,8 +119,9 @@ double ContactSolver::sweep() {
     const Lanes u1 = a1.v - b1.v;
     const Lanes ux = first_of(u0, u1);
     const Lanes uy = second_of(u0, u1);
-    const Lanes u_n = c.nx * ux + c.ny * uy;
-    const Lanes p_n = larger(c.p_n - (u_n + c.compliance * c.p_n + c.bias_n) * c.scale_n, zero);
+    Lanes u_n = c.nx * ux + c.ny * uy;
+    if constexpr (kOffset) u_n = u_n + c.compliance * c.p_n + c.bias_n;
+    const Lanes p_n = larger(c.p_n - u_n * c.scale_n, zero);
     const Lanes d_n = p_n - c.p_n;
     c.p_n = p_n;
     if constexpr (kMeasure) change = larger(change, larger(d_n, -d_n));
@@ -121,9 +129,10 @@ double ContactSolver::sweep() {
     Lanes py = c.ny * d_n;
     if constexpr (kFriction) {
       const Lanes turn = Lanes{a0.s, a1.s} + Lanes{b0.s, b1.s};
-      const Lanes u_t = c.ny * ux - c.nx * uy + turn;
+      Lanes u_t = c.ny * ux - c.nx * uy + turn;
+      if constexpr (kOffset) u_t = u_t + c.compliance * c.p_t + c.bias_t;
       const Lanes limit = c.mu * p_n;
-      const Lanes free = c.p_t - (u_t + c.compliance * c.p_t + c.bias_t) * c.scale_t;
+      const Lanes free = c.p_t - u_t * c.scale_t;
       const Lanes p_t = smaller(larger(free, -limit), limit);
       const Lanes d_t = p_t - c.p_t;
       c.p_t = p_t;
@@ -147,16 +156,16 @@ double ContactSolver::sweep() {
   return std::max(change[0], change[1]);
 }
 
-template <bool kFriction>
+template <bool kFriction, bool kOffset>
 SweepReport ContactSolver::iterate(const SweepLimits& limits) {
   SweepReport report;
   while (report.sweeps < limits.max_sweeps) {
     ++report.sweeps;
     if (report.sweeps % kCheckInterval != 0 && report.sweeps != limits.max_sweeps) {
-      sweep<kFriction, false>();
+      sweep<kFriction, kOffset, false>();
       continue;
     }
-    report.change = sweep<kFriction, true>();
+    report.change = sweep<kFriction, kOffset, true>();
     report.converged = report.change <= limits.tolerance;
     if (report.converged) break;
   }
@@ -167,7 +176,10 @@ SweepReport ContactSolver::solve(std::span<SolverContact> contacts, std::span<So
                                  const SweepLimits& limits) {
   if (contacts.empty()) return {.converged = true};
   load(contacts, bodies);
-  const SweepReport report = any_friction(contacts) ? iterate<true>(limits) : iterate<false>(limits);
+  const bool offset = any_offset(contacts);
+  const SweepReport report = any_friction(contacts)
+                                 ? (offset ? iterate<true, true>(limits) : iterate<true, false>(limits))
+                                 : (offset ? iterate<false, true>(limits) : iterate<false, false>(limits));
   store(contacts, bodies);
   return report;
 }

@@ -96,9 +96,9 @@ class ContactSolver {
   void load(std::span<const SolverContact> contacts, std::span<const SolverBody> bodies);
   void store(std::span<SolverContact> contacts, std::span<SolverBody> bodies) const;
   /// Returns the largest change of an impulse component, or 0 without kMeasure.
-  template <bool kFriction, bool kMeasure>
+  template <bool kFriction, bool kOffset, bool kMeasure>
   double sweep();
-  template <bool kFriction>
+  template <bool kFriction, bool kOffset>
   SweepReport iterate(const SweepLimits& limits);
 
   std::vector<ContactEnds> ends_;

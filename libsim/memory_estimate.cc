@@ -19,12 +19,12 @@ std::size_t memory_estimate(std::int64_t disks) {
   constexpr double kStepper =
       2 * sizeof(SolverBody) + kCandidates * (2 * sizeof(SolverContact) + 3 * sizeof(ContactState));
 
-  // The matrix of the polish has 10 entries a contact; its product with itself a block of 3 × 3 for each disk
-  // and twice for each contact, and its factor about twice as many.
+  // The upper half of the normal matrix of the polish has a triangle for each disk and a block of 3 × 3 for
+  // each contact; it is filled from triplets, and its factor has about four times as many entries.
   constexpr double kEntry = sizeof(double) + sizeof(int);
-  constexpr double kMatrix = 10 * kContacts * (sizeof(Eigen::Triplet<double>) + 2 * kEntry);
-  constexpr double kProduct = 9 * (1 + 2 * kContacts) * kEntry;
-  constexpr double kPolish = kMatrix + 3 * kProduct + 2 * kProduct;
+  constexpr double kHalf = 6 + 9 * kContacts;
+  constexpr double kLinks = kContacts * 20 * sizeof(double);
+  constexpr double kPolish = kLinks + kHalf * (sizeof(Eigen::Triplet<double>) + (2 + 4) * kEntry);
 
   constexpr double kDisk = kWorlds + kPackings + kNeighbours + kStepper + kPolish;
   return static_cast<std::size_t>(kDisk * static_cast<double>(disks));

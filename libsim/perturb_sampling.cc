@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
@@ -25,25 +26,37 @@ Eigen::VectorXd perturbed(const Eigen::VectorXd& forces, double width, Random& r
   return result;
 }
 
-/// Sweeps before the first polish of a solution; they double with each further one.
-constexpr int kFirstSweeps = 500;
+/// Sweeps after which a solution is polished for the first time; each further time they are twice as many. To
+/// polish more often saves no time.
+constexpr std::int64_t kFirstSweeps = 500;
 
-PerturbSample draw(const Packing& packing, const Eigen::VectorXd& from, int index,
+/// What the samples of one packing share; one for each worker.
+struct Solvers {
+  explicit Solvers(const Packing& packing, const PerturbOptions& options)
+      : statics(packing), polisher(packing, options.polish) {}
+
+  StaticSolver statics;
+  Polisher polisher;
+};
+
+PerturbSample draw(Solvers& solvers, double unit, const Eigen::VectorXd& from, int index,
                    const PerturbOptions& options) {
   Random random(options.seed, static_cast<std::uint64_t>(index));
-  const double unit = packing.force_units().internal_in_weights();
+  const std::int64_t limit = options.solver.max_sweeps;
+  const double reach = options.distance * unit;
   StaticForces solved{.forces = perturbed(from, options.width, random)};
   Polished polished;
   PerturbSample sample;
   StaticOptions part = options.solver;
-  for (int sweeps = kFirstSweeps; sample.sweeps < options.solver.max_sweeps && !sample.converged;
-       sweeps *= 2) {
-    part.max_sweeps =
-        static_cast<int>(std::min<std::int64_t>(sweeps, options.solver.max_sweeps - sample.sweeps));
-    solved = solve_statics(packing, solved.forces, part);
-    polished = polish(packing, solved.forces, options.polish);
+  for (std::int64_t total = kFirstSweeps; sample.sweeps < limit && !sample.converged; total *= 2) {
+    part.max_sweeps = static_cast<int>(std::min(total, limit) - sample.sweeps);
+    solved = solvers.statics.solve(solved.forces, part);
     sample.sweeps += solved.sweeps;
-    const bool close = polished.balanced && polished.distance <= options.distance * unit;
+    // The last state is polished however far balanced forces are.
+    const bool last = solved.converged || sample.sweeps >= limit;
+    if (!last && solvers.polisher.least_distance(solved.forces) > reach) continue;
+    polished = solvers.polisher.polish(solved.forces);
+    const bool close = polished.balanced && polished.distance <= reach;
     sample.converged = close || solved.converged;
   }
   sample.forces = polished.forces;
@@ -110,14 +123,17 @@ PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions
   // Sample i belongs to chain i mod chains. Chains advance together, one round of samples at a time.
   const int chains = options.chains;
   std::vector<Eigen::VectorXd> ends(static_cast<std::size_t>(chains), packing.simulated_forces().value());
+  const double unit = packing.force_units().internal_in_weights();
   WorkerTeam team(std::clamp(options.threads, 1, chains));
+  std::deque<Solvers> solvers;  // They cannot move, as a vector would have them do.
+  for (int worker = 0; worker < team.workers(); ++worker) solvers.emplace_back(packing, options);
   for (int begin = 0; begin < options.samples; begin += kRounds * chains) {
     const int end = std::min(options.samples, begin + kRounds * chains);
-    team.run(chains, [&](int, std::int64_t chain) {
+    team.run(chains, [&](int worker, std::int64_t chain) {
       Eigen::VectorXd& from = ends[static_cast<std::size_t>(chain)];
       for (int i = begin + static_cast<int>(chain); i < end; i += chains) {
         PerturbSample& sample = ensemble.samples[static_cast<std::size_t>(i)];
-        sample = draw(packing, from, i, options);
+        sample = draw(solvers[static_cast<std::size_t>(worker)], unit, from, i, options);
         if (sample.accepted) from = sample.forces;
       }
     });

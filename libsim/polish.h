@@ -5,6 +5,7 @@
 
 #include "libindet/base/tolerances.h"
 #include "libindet/packing/packing.h"
+#include "libsim/balance_solver.h"
 
 namespace indet::sim {
 
@@ -14,10 +15,9 @@ namespace indet::sim {
 ///     minimise ‖F − F_raw‖²  subject to  cF = −w,  F in the friction cones,
 ///
 /// where contacts that slide in the raw state (|T| = μR) stay sliding: T = ±μR, one unknown instead of two.
-/// The equality-constrained problem is solved through its normal equations (3N × 3N, sparse Cholesky with
-/// refinement); cone conditions that the solution violates join an active set (contact opened: R = T = 0; or
-/// sliding) until none is violated. Forces are in the internal unit of the packing throughout, torques are
-/// divided by the disk's radius.
+/// The equality-constrained problem is that of balance_solver.h; cone conditions that the solution violates
+/// join an active set (contact opened: R = T = 0; or sliding) until none is violated. Forces are in the
+/// internal unit of the packing throughout, torques are divided by the disk's radius.
 ///
 /// It stands in for the last decades of a Gauss–Seidel iteration, which needs 1e4–1e5 sweeps for them.
 struct PolishOptions {
@@ -45,7 +45,38 @@ struct Polished {
   int rounds = 0;
 };
 
-/// `raw`: (R_1, T_1, …) of the packing's contacts in the scene's units. Precondition: size 2M, finite.
+/// Polishes many raw states of one packing, which must outlive it. What depends on the packing alone is found
+/// once; results do not depend on what was polished before.
+class Polisher {
+ public:
+  explicit Polisher(const Packing& packing, const PolishOptions& options = {});
+
+  /// `raw`: (R_1, T_1, …) of the packing's contacts in the scene's units. Precondition: size 2M, finite.
+  Polished polish(const Eigen::VectorXd& raw);
+
+  /// A lower bound of the distance (mg) of what `polish` would find, at a fraction of its time: the least
+  /// change that balances the disks if there were no cones. The same precondition.
+  double least_distance(const Eigen::VectorXd& raw);
+
+ private:
+  /// One run of the active set.
+  struct Attempt {
+    std::vector<ContactStatus> statuses;
+    Eigen::VectorXd forces;  ///< Internal unit.
+    int rounds = 0;
+    bool settled = false;
+    double residual = 0;
+  };
+  Attempt attempt(std::vector<ContactStatus> statuses);
+
+  const Packing& packing_;
+  PolishOptions options_;
+  ForceUnits units_;
+  BalanceSolver solver_;
+  Eigen::VectorXd raw_;  ///< Internal unit.
+};
+
+/// The same for one raw state.
 Polished polish(const Packing& packing, const Eigen::VectorXd& raw, const PolishOptions& options = {});
 
 /// Largest component of cF + w in units of force, torques divided by the radius.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "libsim/contact_solver.h"
 #include "libsim/polish.h"
 
 namespace indet::sim {
@@ -50,38 +49,41 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
 
 }  // namespace
 
+StaticSolver::StaticSolver(const Packing& packing)
+    : packing_(packing), units_(packing.force_units()), free_bodies_(free_bodies(packing)) {
+  for (const Contact& contact : packing.contacts) contacts_.push_back(solver_contact(packing, contact));
+}
+
+StaticForces StaticSolver::solve(const Eigen::VectorXd& initial, const StaticOptions& options) {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    contacts_[i].p_n = initial[2 * static_cast<Eigen::Index>(i)];
+    contacts_[i].p_t = initial[2 * static_cast<Eigen::Index>(i) + 1];
+  }
+  StaticForces result;
+  while (!result.converged && result.sweeps < options.max_sweeps) {
+    bodies_ = free_bodies_;
+    apply_impulses(contacts_, bodies_);
+    const auto left = static_cast<int>(options.max_sweeps - result.sweeps);
+    const SweepReport report = solver_.solve(contacts_, bodies_,
+                                             {.max_sweeps = std::min(left, kSweepsPerRound),
+                                              .tolerance = options.tolerance * units_.internal_in_scene()});
+    result.sweeps += report.sweeps;
+    result.change = report.change / units_.weight_in_scene();
+    result.converged = report.converged;
+    if (contacts_.empty()) break;
+  }
+  result.forces.resize(initial.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    result.forces[2 * static_cast<Eigen::Index>(i)] = contacts_[i].p_n;
+    result.forces[2 * static_cast<Eigen::Index>(i) + 1] = contacts_[i].p_t;
+  }
+  result.residual = balance_residual(packing_, result.forces);
+  return result;
+}
+
 StaticForces solve_statics(const Packing& packing, const Eigen::VectorXd& initial,
                            const StaticOptions& options) {
-  const ForceUnits units = packing.force_units();
-  std::vector<SolverContact> contacts;
-  for (int i = 0; i < packing.contact_count(); ++i) {
-    SolverContact contact = solver_contact(packing, packing[ContactId(i)]);
-    contact.p_n = initial[2 * i];
-    contact.p_t = initial[2 * i + 1];
-    contacts.push_back(contact);
-  }
-  const std::vector<SolverBody> start = free_bodies(packing);
-  StaticForces result;
-  ContactSolver solver;
-  while (!result.converged && result.sweeps < options.max_sweeps) {
-    std::vector<SolverBody> bodies = start;
-    apply_impulses(contacts, bodies);
-    const auto left = static_cast<int>(options.max_sweeps - result.sweeps);
-    const SweepReport report = solver.solve(contacts, bodies,
-                                            {.max_sweeps = std::min(left, kSweepsPerRound),
-                                             .tolerance = options.tolerance * units.internal_in_scene()});
-    result.sweeps += report.sweeps;
-    result.change = report.change / units.weight_in_scene();
-    result.converged = report.converged;
-    if (contacts.empty()) break;
-  }
-  result.forces.resize(2 * packing.contact_count());
-  for (int i = 0; i < packing.contact_count(); ++i) {
-    result.forces[2 * i] = contacts[static_cast<std::size_t>(i)].p_n;
-    result.forces[2 * i + 1] = contacts[static_cast<std::size_t>(i)].p_t;
-  }
-  result.residual = balance_residual(packing, result.forces);
-  return result;
+  return StaticSolver(packing).solve(initial, options);
 }
 
 }  // namespace indet::sim

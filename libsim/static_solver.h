@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "libindet/base/tolerances.h"
 #include "libindet/packing/packing.h"
+#include "libsim/contact_solver.h"
 
 namespace indet::sim {
 
@@ -31,7 +33,25 @@ struct StaticForces {
   double residual = 0;  ///< Largest component of cF + w, torques divided by the radius, recomputed (mg).
 };
 
-/// `initial`: (R_1, T_1, …) in the scene's units. Preconditions: size 2M, finite.
+/// Solves many times for one packing, which must outlive it. What depends on the packing alone is found once;
+/// results do not depend on what was solved before.
+class StaticSolver {
+ public:
+  explicit StaticSolver(const Packing& packing);
+
+  /// `initial`: (R_1, T_1, …) in the scene's units. Preconditions: size 2M, finite.
+  StaticForces solve(const Eigen::VectorXd& initial, const StaticOptions& options = {});
+
+ private:
+  const Packing& packing_;
+  ForceUnits units_;
+  std::vector<SolverBody> free_bodies_;  ///< Under the external wrench alone; the last row is the walls'.
+  std::vector<SolverBody> bodies_;
+  std::vector<SolverContact> contacts_;
+  ContactSolver solver_;
+};
+
+/// The same for one start.
 StaticForces solve_statics(const Packing& packing, const Eigen::VectorXd& initial,
                            const StaticOptions& options = {});
 
