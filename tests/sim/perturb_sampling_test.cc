@@ -29,11 +29,13 @@ TEST(Perturb, AcceptedSamplesAreInThePolytopeAndSpreadOut) {
 }
 
 TEST(Perturb, ResultsDoNotDependOnTheNumberOfThreads) {
-  const Packing packing = settled(20);
+  const Packing packing = settled(40);
   const auto draw = [&](int threads) {
     return perturb_and_resolve(packing, {.samples = 24, .chains = 6, .seed = 9, .threads = threads});
   };
   const PerturbEnsemble one = draw(1);
+  // Chains that share a worker share its solvers, whose contacts slide and open differently from sample to
+  // sample.
   for (const int threads : {2, 3, 8}) {
     const PerturbEnsemble many = draw(threads);
     EXPECT_EQ(one.r, many.r);
