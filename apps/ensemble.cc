@@ -165,7 +165,6 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   std::filesystem::create_directories(folder);
   write_plan(folder, plan);
 
-  if (context.prints_report()) print_molecular_dynamics(config, o.preset);
   RunOptions options;
   options.threads = context.thread_count();
   options.first = range.first;
@@ -183,6 +182,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   const int asked = range.last - range.first + 1;
   const auto stop = [&] { return report_interruption(summary.done + summary.skipped, asked); };
   if (summary.interrupted) return stop();
+  if (context.prints_report()) print_molecular_dynamics(config, o.preset);
   Outcomes outcomes{.done = summary.done, .skipped = summary.skipped, .failures = summary.failures};
   if (asked < static_cast<int>(plan.members.size())) {
     return report_part(folder, range.first, range.last, outcomes, seconds(), context);
