@@ -117,7 +117,7 @@ class EnsembleTest(program.ProgramTest):
         self.assertIn("it is computed again", done.stderr)
         again = json.loads(done.stdout)
         self.assertEqual((again["done"], again["skipped"]), (1, 7))
-        other = json.loads(self.ensemble("e", "--mu", "0.5", "--json").stdout)
+        other = json.loads(self.ensemble("e", "--mu", "0.4", "--json").stdout)
         self.assertEqual(other["done"], 8)
         more = json.loads(
             self.run_indet("ensemble", "--seeds", "3", *SMALL, "--mu", "0.5", "-o", "e", "--json").stdout)
