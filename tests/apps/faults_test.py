@@ -163,7 +163,7 @@ class Memory(LammpsPacking):
         if b"__asan_init" in pathlib.Path(program.INDET).read_bytes():
             self.skipTest("AddressSanitizer reserves terabytes")
         seen = set()
-        for megabytes in (160, 200, 250, 300, 330, 360, 400, 450, 600, 2000):
+        for megabytes in (160, 200, 250, 300, 360, 450, 2000):
             limit = megabytes << 20
             done = subprocess.run([program.INDET, "--threads", "2", "analyze", "p.h5", "-o", "r.h5"], cwd=self.folder,
                                   capture_output=True, text=True, timeout=60, check=False,

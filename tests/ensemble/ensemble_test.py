@@ -296,7 +296,7 @@ class EnsembleTest(program.ProgramTest):
                 self.assertEqual(file.attrs["complete"], 1)
 
     def test_progress_counts_the_packings_that_are_there_already(self):
-        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", *LONGER, "--threads", "1", "-o", "e"]
+        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", "--uniform-seeds", "0", "--threads", "1", "-o", "e"]
         self.run_indet(*arguments, "--members", "0")
         here, terminal = pty.openpty()
         process = subprocess.Popen([program.INDET, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)

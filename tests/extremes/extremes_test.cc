@@ -44,7 +44,7 @@ TEST(Extremes, NoRandomSceneIsSilentlyWrong) {
 /// hence X ≤ mg / 2, in the corner X = Y, for μ < 1.
 TEST(Extremes, AColumnBetweenWallsIsLimitedOnlyAtItsTop) {
   const double mu = 0.3;
-  for (const int count : {10, 60}) {
+  for (const int count : {10, 40}) {
     const ForceRanges ranges = analyze(zoo::column_between_walls(count, mu));
     EXPECT_EQ(ranges.status, PolytopeStatus::kUnbounded);
     EXPECT_EQ(ranges.certified, ranges.objectives);
