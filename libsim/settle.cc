@@ -55,8 +55,8 @@ std::string describe_motion(const World& world, const Settled& settled) {
   return fmt::format(
       "not at rest at the time limit, {:.4g}: kinetic energy per disk {:.2e}, forces balance to {:.2e} mg; "
       "disk {} moves fastest, at ({:.4g}, {:.4g}) with speed {:.2e}",
-      settled.time, settled.kinetic_energy, settled.residual, world.id[fastest], world.x[fastest],
-      world.y[fastest], speed / units.speed());
+      settled.time, settled.kinetic_energy, settled.residual, world.id[fastest],
+      world.x[fastest] / units.length, world.y[fastest] / units.length, speed / units.speed());
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ struct ContactDynamicsOptions {
   double dt = 1e-3;
   double tolerance = tolerance::kSweepChange;  ///< Largest change of a contact force in the last sweep.
   int max_sweeps = 100;                        ///< A step.
-  /// A step, until one is solved to the tolerance (ImplicitOptions::start_sweeps). Matters where disks in
-  /// contact start from F = 0, as in cd2.
+  /// Of a step in which no contact carries a force from the step before, as the first of cd2 (F = 0).
   int start_sweeps = 100000;
   RigidLaw law;
   double residual = tolerance::kRestForce;  ///< A state is static if its raw forces balance to this.

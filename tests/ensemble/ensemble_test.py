@@ -120,7 +120,7 @@ class EnsembleTest(program.ProgramTest):
         other = json.loads(self.ensemble("e", "--mu", "0.4", "--json").stdout)
         self.assertEqual(other["done"], 8)
         more = json.loads(
-            self.run_indet("ensemble", "--seeds", "3", *SMALL, "--mu", "0.5", "-o", "e", "--json").stdout)
+            self.run_indet("ensemble", "--seeds", "3", *SMALL, "--mu", "0.4", "-o", "e", "--json").stdout)
         self.assertEqual((more["done"], more["skipped"]), (4, 8))
 
     def test_parts_join_to_the_same_tables(self):
@@ -304,7 +304,7 @@ class EnsembleTest(program.ProgramTest):
         shown = b""
         while b"of 3 packings" not in shown and process.poll() is None:
             shown += os.read(here, 1000)
-        self.assertRegex(shown, rb"[12] of 3 packings")
+        self.assertIn(b"1 of 3 packings", shown)
         process.kill()
         process.wait()
         os.close(here)

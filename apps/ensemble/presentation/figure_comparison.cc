@@ -173,7 +173,8 @@ void add_sliding_contacts(const Samples& samples, std::vector<Comparison>& rows)
 void add_densities(const Samples& samples, std::vector<Comparison>& rows) {
   add_local_indeterminacy(samples, rows);
   add_peak(samples, "delta_R", "δR (Fig. 9)", 5, rows);
-  add_peak(samples, samples.has_paper_walk() ? "paper_d_R" : "d_R", "dR (Fig. 10)", 10, rows);
+  add_peak(samples, "d_R", "dR, canonical states (Fig. 10)", 10, rows);
+  if (samples.has_paper_walk()) add_peak(samples, "paper_d_R", "dR, the paper's walk (Fig. 10)", 10, rows);
   if (samples.has(kCd) && samples.has(kMd)) add_places(samples, rows);
   add_forces(samples, rows);
 }

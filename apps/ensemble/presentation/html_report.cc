@@ -71,8 +71,9 @@ std::string inline_svg(const std::filesystem::path& path, const std::string& pre
   return text;
 }
 
-/// How a row comes out with other choices, to be unfolded.
+/// How a row comes out with other choices, to be unfolded; for packings of the paper's case alone.
 std::string dependence_of(const Comparison& row) {
+  if (row.verdict.empty()) return "";
   const std::vector<PaperChoice> choices = choices_of(row.quantity);
   if (choices.empty()) return "";
   const auto agreeing = std::count_if(choices.begin(), choices.end(),
@@ -106,14 +107,12 @@ std::string note_on_verdicts(const EnsembleTables& tables) {
         "%; where it says which is larger, larger by two standard errors. \"not decided\": the difference is "
         "less, or the paper gives no number. Sliding contacts are judged by the raw states, as the paper "
         "does not polish: its ε = 1e-9 counts contacts on their limit, and leaves out those that only the "
-        "polish puts there.";
+        "polish puts there. \"With other choices\" of what the paper leaves open (" +
+        escaped(paper_choices_origin()) + "): docs/measurements/paper-choices.tsv.";
   } else {
     text += other_case + " Hence there is no verdict.";
   }
-  return text + fmt::format(
-                    " With other choices of what the paper leaves open: {}. Files: figures/comparison.csv, "
-                    "docs/measurements/paper-choices.tsv.</p>\n",
-                    escaped(paper_choices_origin()));
+  return text + " File: figures/comparison.csv</p>\n";
 }
 
 std::string table_beyond_the_paper(const std::vector<Comparison>& rows) {
