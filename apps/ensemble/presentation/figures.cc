@@ -223,7 +223,7 @@ Figure global(const Samples& samples, const char* id, const char* title,
                     "force of a contact. As many states attain an optimum, they measure which of these a "
                     "method takes as much as they measure F. ",
                 .claim = "Two maxima: near 0, and at about 60 mg (CD) and 75 mg (MD).",
-                .finding = "Main maximum, sought from a tenth of the 99 % quantile to that quantile. ",
+                .finding = "Main maximum, sought from a twentieth of the 99 % quantile to that quantile. ",
                 .panels = {}};
   for (const StateChoice& choice : choices) {
     const std::vector<Curve> curves = pair_of_methods(samples, choice.normal, choice.tangential);

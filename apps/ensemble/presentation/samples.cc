@@ -59,7 +59,7 @@ double round_width(double span, int bins) {
 
 Estimate main_maximum(const GroupedValues& data) {
   const double high = quantile(data, 0.99);
-  return high > 0 ? position_of_maximum(data, 0.1 * high, high, round_width(high, 40)) : Estimate{};
+  return high > 0 ? position_of_maximum(data, 0.05 * high, high, round_width(high, 40)) : Estimate{};
 }
 
 Samples::Samples(const EnsembleTables& tables) : tables_(tables), protocols_(protocols_of(tables.runs)) {

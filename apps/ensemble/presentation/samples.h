@@ -23,7 +23,7 @@ double largest(const GroupedValues& data);
 /// A width of bins that is 1, 2 or 5 times a power of ten and makes at most `bins` of them.
 double round_width(double span, int bins);
 
-/// Position of the main maximum of a density away from 0: between a tenth of the 99 % quantile and that, in
+/// Position of the main maximum of a density away from 0: between a twentieth of the 99 % quantile and that, in
 /// about 40 bins. NaN where the density only falls.
 Estimate main_maximum(const GroupedValues& data);
 
