@@ -234,6 +234,11 @@ Command add_ensemble(CLI::App& root) {
       ->check(CLI::IsMember(sim::molecular_preset_names()))
       ->capture_default_str();
   command
+      ->add_option("--time-limit", o->config.time_limit,
+                   "Largest simulated time of each packing (0: 6 sqrt(Ly/g), as in the paper)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
       ->add_option("--alpha", o->config.contact_dynamics.law.alpha,
                    "cd: fraction of an overlap that is removed per step (0: overlaps stay as they are)")
       ->check(CLI::Range(0.0, 1.0))

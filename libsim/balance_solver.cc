@@ -138,7 +138,7 @@ bool BalanceSolver::factorise(const std::vector<ContactStatus>& statuses) {
   return usable_;
 }
 
-double BalanceSolver::balance(const Eigen::VectorXd& forces) {
+double BalanceSolver::residual(const Eigen::VectorXd& forces) {
   imbalance_ = load_;
   double* sum = imbalance_.data();
   for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -158,10 +158,8 @@ double BalanceSolver::balance(const Eigen::VectorXd& forces) {
   return imbalance_.size() == 0 ? 0 : imbalance_.lpNorm<Eigen::Infinity>();
 }
 
-double BalanceSolver::residual(const Eigen::VectorXd& forces) { return balance(forces); }
-
 double BalanceSolver::least_change(const Eigen::VectorXd& forces) {
-  balance(forces);
+  residual(forces);
   solution_ = cholesky_.solve(imbalance_);
   // ‖Aᵀ y‖² with (A Aᵀ + shift) y = cF + w.
   return std::sqrt(
@@ -172,7 +170,7 @@ void BalanceSolver::apply(Eigen::VectorXd& forces) {
   constexpr int kRefinements = 12;
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kRefinements; ++i) {
-    const double size = balance(forces);
+    const double size = residual(forces);
     if (!(size < 0.5 * best)) break;
     best = size;
     solution_ = cholesky_.solve(imbalance_);

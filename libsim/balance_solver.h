@@ -62,12 +62,11 @@ class BalanceSolver {
 
   void lay_out(int disks);
   void add(const Link& link, const Direction& direction);
-  /// Fills imbalance_ with cF + w; returns the largest component.
-  double balance(const Eigen::VectorXd& forces);
 
   std::vector<Link> links_;
-  Eigen::VectorXd load_;  ///< w, in the order of elimination.
-  Eigen::VectorXd imbalance_, solution_;
+  Eigen::VectorXd load_;       ///< w, in the order of elimination.
+  Eigen::VectorXd imbalance_;  ///< cF + w of the last `residual`.
+  Eigen::VectorXd solution_;
   std::vector<std::array<int, 3>> diagonal_;  ///< Places of the block of a body with itself, one a column.
   std::vector<ContactStatus> factorised_;     ///< What the factor is of.
   bool usable_ = false;

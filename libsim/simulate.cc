@@ -150,6 +150,8 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
   if (!rigid)
     polish_options.sliding = std::max(polish_options.sliding, 10 * options.molecular_dynamics.residual);
   result.polished = polish(result.raw, result.raw.simulated_forces().value(), polish_options);
+  if (!result.polished.balanced && result.settled.ending == Ending::kTimeLimit)
+    result.polished.reason += " (the time limit came before the disks were at rest; a larger one may help)";
   result.packing = result.raw;
   const ForceUnits force_units = result.raw.force_units();
   if (result.polished.balanced) {

@@ -200,7 +200,7 @@ def large_packing(bench, repetitions):
     """Methods and samples where an analysis takes seconds."""
     file = bench.folder / "large.h5"
     bench.say("400 disks")
-    bench.run("simulate", "--protocol", "md1", "--disks", 400, "--seed", 0, "-o", file)
+    bench.run("simulate", "--protocol", "md1", "--preset", "stiff", "--disks", 400, "--seed", 0, "-o", file)
     means = {}
     for method in ["lp", "pivoting-tableau"]:
         run = bench.run("analyze", file, "--accuracy", "fast", "--method", method, "-o", bench.folder / "r.h5")
@@ -224,8 +224,8 @@ def simulators(bench, seeds):
     knobs = {
         "CD tolerance": ("cd1", "--tolerance", ["1e-4", "1e-5", "1e-6", "1e-7", "1e-8"], []),
         "CD sweeps": ("cd1", "--sweeps", ["100", "300", "1000", "3000"], []),
-        "MD stiffness": ("md1", "--stiffness", ["1e4", "1e5", "1.2e6", "1e7"], []),
-        "MD time step": ("md1", "--dt", ["5e-5", "2.5e-5", "1.2e-5"], []),
+        "MD stiffness": ("md1", "--stiffness", ["1e4", "1e5", "1.2e6", "1e7"], ["--preset", "stiff"]),
+        "MD time step": ("md1", "--dt", ["5e-5", "2.5e-5", "1.2e-5"], ["--preset", "stiff"]),
     }
     for knob, (protocol, option, settings, fixed) in knobs.items():
         found = collections.defaultdict(list)

@@ -272,6 +272,13 @@ class EnsembleTest(program.ProgramTest):
         self.assertIn("missing: bad", done.stdout)
         self.assertEqual(list(table(self.folder / "e/ensemble.h5", "runs")["member"]), [b"good"])
 
+    def test_a_packing_that_does_not_balance_in_time_is_named_and_does_with_more(self):
+        arguments = ["ensemble", "--protocols", "md1", "--first-seed", "1", "--seeds", "1", *SMALL, "--mu", "0.5", "-o", "e"]
+        done = self.run_indet(*arguments, status=5)
+        self.assertIn("md1-0001: md1: the forces do not balance", done.stderr)
+        self.assertIn("the time limit came before the disks were at rest; a larger one may help", done.stderr)
+        self.assertEqual(json.loads(self.run_indet(*arguments, "--time-limit", "40", "--json").stdout)["done"], 1)
+
     def interrupt(self, *arguments, after):
         """Sends SIGINT once there are `after` packings; returns the message and how many there are then."""
         process = subprocess.Popen([program.INDET, "ensemble", *arguments, "-o", "e"], cwd=self.folder,
@@ -286,7 +293,7 @@ class EnsembleTest(program.ProgramTest):
 
     def test_an_interrupt_leaves_whole_files_and_says_how_many(self):
         for number in (1, 4):  # of which the first ones are there already
-            error, done = self.interrupt("--seeds", "20", *LONGER, after=number)
+            error, done = self.interrupt("--seeds", "20", "--first-seed", "20", *LONGER, after=number)
             verb = "is" if done == 1 else "are"
             self.assertEqual(error, f"indet: interrupted; {done} of 80 packings {verb} done; the same command goes on\n")
         self.assertFalse((self.folder / "e/ensemble.h5").exists())

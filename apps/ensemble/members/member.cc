@@ -27,7 +27,7 @@ class Stopwatch {
 sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& scene, const sim::World& world,
                              sim::Protocol protocol, const ProgressCallback& progress) {
   sim::SimulationOptions options = simulation_options_of(config, protocol);
-  options.time_limit = sim::default_time_limit(world, scene.height);
+  if (options.time_limit == 0) options.time_limit = sim::default_time_limit(world, scene.height);
   if (const auto reason = options.defect(world)) throw InputError(*reason);
   sim::Simulation result = sim::simulate(world, {}, options, {.progress = progress});
   if (!result.polished.balanced)

@@ -151,6 +151,7 @@ sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {
 
 sim::SimulationOptions simulation_options_of(const EnsembleConfig& config, Protocol protocol) {
   sim::SimulationOptions options;
+  options.time_limit = config.time_limit;
   options.contact_dynamics = config.contact_dynamics;
   if (is_simulated_by(protocol, sim::Simulator::kMolecularDynamics)) {
     options.simulator = sim::Simulator::kMolecularDynamics;

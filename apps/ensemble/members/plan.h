@@ -19,6 +19,7 @@ struct EnsembleConfig {
   std::int64_t first_seed = 0;
   std::int64_t seeds = 60;
   std::vector<sim::Protocol> protocols = {sim::kSimulated.begin(), sim::kSimulated.end()};
+  double time_limit = 0;  ///< Of a simulation, units of time; 0: that of the scene's height.
   sim::ContactDynamicsOptions contact_dynamics;
   sim::MolecularDynamicsOptions molecular_dynamics;
   std::vector<std::filesystem::path> files;  ///< Packings that are there already.

@@ -23,8 +23,8 @@ double largest(const GroupedValues& data);
 /// A width of bins that is 1, 2 or 5 times a power of ten and makes at most `bins` of them.
 double round_width(double span, int bins);
 
-/// Position of the main maximum of a density away from 0: between a twentieth of the 99 % quantile and that, in
-/// about 40 bins. NaN where the density only falls.
+/// Position of the main maximum of a density away from 0: between a twentieth of the 99 % quantile and that,
+/// in about 40 bins. NaN where the density only falls.
 Estimate main_maximum(const GroupedValues& data);
 
 /// Columns of the tables of an ensemble as samples, grouped by seed. `tables` must outlive it.
