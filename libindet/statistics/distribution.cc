@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace indet {
@@ -81,8 +80,9 @@ void GroupedValues::add(double value, int group_of_value, double count) {
 }
 
 double GroupedValues::total() const {
-  return counts.empty() ? static_cast<double>(values.size())
-                        : std::accumulate(counts.begin(), counts.end(), 0.0);
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += std::isfinite(values[i]) ? count_of(*this, i) : 0;
+  return sum;
 }
 
 Histogram histogram(const GroupedValues& data, double low, double width, int bins,
@@ -204,11 +204,14 @@ Estimate grouped_mean(const GroupedValues& data, const BootstrapOptions& options
 
 double kolmogorov_distance(const GroupedValues& a, const GroupedValues& b) {
   std::vector<std::pair<double, double>> steps;  // value, change of P_a − P_b
-  const double total_a = a.total();
-  const double total_b = b.total();
-  for (std::size_t i = 0; i < a.values.size(); ++i) steps.emplace_back(a.values[i], count_of(a, i) / total_a);
-  for (std::size_t i = 0; i < b.values.size(); ++i)
-    steps.emplace_back(b.values[i], -count_of(b, i) / total_b);
+  const auto add_steps = [&](const GroupedValues& data, double sign) {
+    const double total = data.total();
+    for (std::size_t i = 0; i < data.values.size(); ++i) {
+      if (std::isfinite(data.values[i])) steps.emplace_back(data.values[i], sign * count_of(data, i) / total);
+    }
+  };
+  add_steps(a, 1);
+  add_steps(b, -1);
   std::sort(steps.begin(), steps.end());
   double difference = 0;
   double largest = 0;

@@ -17,7 +17,7 @@ struct GroupedValues {
   int groups = 0;
 
   void add(double value, int group_of_value, double count = 1);
-  double total() const;
+  double total() const;  ///< Number of finite values.
 };
 
 /// A probability density: density_k = n_k/(n · width) over [low + k width, low + (k + 1) width), where n
@@ -63,7 +63,8 @@ Estimate fraction_between(const GroupedValues& data, double low, double high,
 /// Mean of all finite values; its error is a bootstrap over groups.
 Estimate grouped_mean(const GroupedValues& data, const BootstrapOptions& options = {});
 
-/// The distance of Kolmogorov and Smirnov, sup |P_a(x) − P_b(x)| of the cumulative distributions.
+/// The distance of Kolmogorov and Smirnov, sup |P_a(x) − P_b(x)| of the cumulative distributions of the
+/// finite values.
 double kolmogorov_distance(const GroupedValues& a, const GroupedValues& b);
 
 }  // namespace indet

@@ -152,5 +152,16 @@ TEST(Kolmogorov, OfShiftedValuesIsTheFractionPassed) {
   EXPECT_NEAR(kolmogorov_distance(a, b), 0.1, 1e-12);
 }
 
+/// A determined force has no place in its range: NaN among places is no value.
+TEST(Kolmogorov, LeavesOutWhatIsNotAValue) {
+  GroupedValues a, b;
+  for (int i = 0; i < 1000; ++i) {
+    a.add(i / 1000.0, 0);
+    b.add(i % 10 == 3 ? std::nan("") : i / 1000.0, 0);
+  }
+  EXPECT_LT(kolmogorov_distance(a, b), 0.002);
+  EXPECT_LT(kolmogorov_distance(b, a), 0.002);
+}
+
 }  // namespace
 }  // namespace indet
