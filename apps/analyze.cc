@@ -144,6 +144,12 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                                     {"id", packing[DiskId(disk.index)].id},
                                     {"motion", {disk.motion.x(), disk.motion.y(), disk.motion.z()}}});
   }
+  for (Eigen::Index w = 0; w < ranges.wall_motion.rows(); ++w) {
+    const auto motion = ranges.wall_motion.row(w);
+    if (motion.norm() <= tolerance::kMotionEntry) continue;
+    json["moving_walls"].push_back(
+        {{"index", w}, {"id", packing[WallId(w)].id}, {"motion", {motion[0], motion[1]}}});
+  }
   if (ranges.status == PolytopeStatus::kUnbounded) {
     json["rays"] = ranges.rays.rows();
   }
@@ -162,6 +168,12 @@ void print_motion(const Packing& packing, const ForceRanges& ranges) {
                disks[i].motion.x(), disks[i].motion.y(), disks[i].motion.z());
   }
   if (disks.size() > kShown) fmt::print("  … and {} more\n", disks.size() - kShown);
+  for (Eigen::Index w = 0; w < ranges.wall_motion.rows(); ++w) {
+    const auto motion = ranges.wall_motion.row(w);
+    if (motion.norm() <= tolerance::kMotionEntry) continue;
+    fmt::print("  wall {:<6} {:+.3f} along its normal, {:+.3f} along its tangent\n",
+               describe_wall(packing[WallId(w)]), motion[0], motion[1]);
+  }
 }
 
 void print_extremes(const Packing& packing, const ForceRanges& ranges) {

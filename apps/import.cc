@@ -99,6 +99,7 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
                          {"forces_known", report.forces_known},
                          {"duplicates", report.duplicates},
                          {"levers", packing.has_levers()},
+                         {"loaded_walls", packing.has_loaded_walls()},
                          {"without_equations", imported.without_equations},
                          {"loose_disks", report.loose_disks},
                          {"balance_tolerance", tolerance},
@@ -106,6 +107,7 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
   if (report.forces_known) {
     json["force_residual"] = report.force_residual;
     json["torque_residual"] = report.torque_residual;
+    if (packing.has_loaded_walls()) json["wall_residual"] = report.wall_residual;
     json["coulomb_violations"] = report.coulomb_violations;
     json["worst_violation"] = report.worst_violation;
     json["sliding"] = report.sliding;
@@ -126,6 +128,12 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
     };
     fmt::print("largest net force   {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
     fmt::print("largest net torque  {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
+    if (packing.has_loaded_walls()) {
+      fmt::print("net force on a wall {:.2e} mg{}\n", report.wall_residual,
+                 report.worst_wall.value() < 0
+                     ? ""
+                     : fmt::format(" (wall {})", describe_wall(packing[report.worst_wall])));
+    }
     fmt::print("                    (accepted up to {:.0e})\n", tolerance);
     fmt::print("Coulomb violations  {}", report.coulomb_violations);
     if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);

@@ -137,6 +137,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"walls", packing.wall_count()},
       {"contacts", packing.contact_count()},
       {"levers", packing.has_levers()},
+      {"loaded_walls", packing.has_loaded_walls()},
       {"gravity", {packing.gravity.x(), packing.gravity.y()}},
       {"force_unit", packing.force_unit()},
       {"r_max", packing.max_radius()},
@@ -193,8 +194,9 @@ void print_packing(const FileContents& contents) {
   }
   std::string walls = fmt::format("{}", packing.wall_count());
   for (const Wall& wall : packing.walls) {
-    walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ",
-                         wall.name.empty() ? fmt::format("{}", wall.id) : wall.name);
+    walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ", describe_wall(wall));
+    if (wall.is_free_along_normal()) walls += fmt::format(" (load_n = {:.4g} mg)", wall.load_n / unit);
+    if (wall.is_free_along_tangent()) walls += fmt::format(" (load_t = {:.4g} mg)", wall.load_t / unit);
   }
   const int fixed = packing.disk_count() - packing.free_disk_count();
   print_line("packing",

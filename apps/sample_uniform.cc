@@ -151,7 +151,7 @@ void check_balance(const Packing& packing, const Eigen::MatrixXd& states, Findin
     const double largest = state.value().size() > 0 ? state.value().lpNorm<Eigen::Infinity>() : 0.0;
     const double allowed =
         units.weights(InternalForce(tolerance::kSampleResidual * std::max(1.0, largest))).value();
-    const double residual = equilibrium_residual(packing, units.scene(state)).cwiseAbs().maxCoeff();
+    const double residual = largest_imbalance(packing, units.scene(state));
     f.worst_residual = std::max(f.worst_residual, residual);
     if (!(residual <= allowed)) {
       throw LibraryError(fmt::format(

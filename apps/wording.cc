@@ -20,6 +20,10 @@ std::string describe_disks(const Packing& packing) {
   return fixed == 0 ? all : fmt::format("{} ({} fixed)", all, fixed);
 }
 
+std::string describe_wall(const Wall& wall) {
+  return wall.name.empty() ? fmt::format("{}", wall.id) : wall.name;
+}
+
 std::string describe_levers(const Packing& packing) {
   int given = 0;
   double least = std::numeric_limits<double>::infinity();

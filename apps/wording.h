@@ -15,6 +15,9 @@ std::string describe_sliding(std::int64_t sliding, std::int64_t non_transmitting
 /// "12 disks", "12 disks (5 fixed)".
 std::string describe_disks(const Packing& packing);
 
+/// The name of a wall, or its id where it has none.
+std::string describe_wall(const Wall& wall);
+
 /// "of 40 of 376 contacts given, 0.9876 … 1 of the radius". Precondition: packing.has_levers().
 std::string describe_levers(const Packing& packing);
 

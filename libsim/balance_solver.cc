@@ -52,7 +52,7 @@ BalanceSolver::BalanceSolver(const Packing& packing) {
       link.row_a = 3 * places[contact.a.value()];
       link.arm_a = packing.lever_a(contact) / packing[contact.a].radius;
     }
-    if (packing.has_equations(contact.b)) {
+    if (packing.is_free_disk(contact.b)) {
       link.row_b = 3 * places[contact.b.disk_id().value()];
       link.arm_b = packing.lever_b(contact) / packing[contact.b.disk_id()].radius;
     }

@@ -67,8 +67,8 @@ struct PerturbEnsemble {
   double start_distance = -1;     ///< ‖F_packing − F°‖ (mg).
 };
 
-/// Throws InputError if the packing's forces are unknown, or with the options' defect; Interrupted if the
-/// callback asks to stop.
+/// Throws InputError if the packing's forces are unknown or a wall is loaded, or with the options' defect;
+/// Interrupted if the callback asks to stop.
 PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions& options,
                                     const ProgressCallback& progress = {});
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libsim/loaded_walls.h"
+
 namespace indet::sim {
 namespace {
 
@@ -29,7 +31,7 @@ Eigen::VectorXd imbalance(const Packing& packing, const Eigen::VectorXd& forces,
           Eigen::Vector3d(side * x, side * y, T * (lever / packing[disk].radius));
     };
     if (packing.has_equations(contact.a)) add(contact.a, 1, packing.lever_a(contact));
-    if (packing.has_equations(contact.b)) add(contact.b.disk_id(), -1, packing.lever_b(contact));
+    if (packing.is_free_disk(contact.b)) add(contact.b.disk_id(), -1, packing.lever_b(contact));
   }
   return sum;
 }
@@ -70,7 +72,9 @@ double cone_violation(const Packing& packing, const Eigen::VectorXd& forces) {
 }
 
 Polisher::Polisher(const Packing& packing, const PolishOptions& options)
-    : packing_(packing), options_(options), units_(packing.force_units()), solver_(packing) {}
+    : packing_(packing), options_(options), units_(packing.force_units()), solver_(packing) {
+  refuse_loaded_walls(packing, "the polish");
+}
 
 Polisher::Attempt Polisher::attempt(std::vector<ContactStatus> statuses) {
   const int contacts = packing_.contact_count();

@@ -49,6 +49,7 @@ struct Polished {
 /// once; results do not depend on what was polished before.
 class Polisher {
  public:
+  /// Throws InputError if a wall is loaded.
   explicit Polisher(const Packing& packing, const PolishOptions& options = {});
 
   /// `raw`: (R_1, T_1, …) of the packing's contacts in the scene's units. Precondition: size 2M, finite.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "libsim/loaded_walls.h"
 #include "libsim/polish.h"
 
 namespace indet::sim {
@@ -43,7 +44,7 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
     c.arm_a = packing.lever_a(contact) / a.radius;
   }
   c.b = contact.b.is_wall() ? packing.disk_count() : contact.b.disk_id().value();
-  if (packing.has_equations(contact.b)) {
+  if (packing.is_free_disk(contact.b)) {
     const Disk& b = packing[contact.b.disk_id()];
     c.inverse_mass_b = 1 / b.mass;
     c.inverse_spin_b = b.radius * b.radius / b.inertia;
@@ -57,6 +58,7 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
 
 StaticSolver::StaticSolver(const Packing& packing)
     : packing_(packing), units_(packing.force_units()), free_bodies_(free_bodies(packing)) {
+  refuse_loaded_walls(packing, "the iterative solver");
   for (const Contact& contact : packing.contacts) contacts_.push_back(solver_contact(packing, contact));
 }
 

@@ -37,6 +37,7 @@ struct StaticForces {
 /// results do not depend on what was solved before.
 class StaticSolver {
  public:
+  /// Throws InputError if a wall is loaded.
   explicit StaticSolver(const Packing& packing);
 
   /// `initial`: (R_1, T_1, …) in the scene's units. Preconditions: size 2M, finite.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libindet/base/error.h"
+#include "libsim/loaded_walls.h"
 
 namespace indet::sim {
 
@@ -90,6 +91,7 @@ void World::bring_to_rest() {
 }
 
 World world_of(const Packing& packing, const Friction& friction) {
+  refuse_loaded_walls(packing, "a simulation");
   World world;
   for (const Disk& disk : packing.disks) world.add(disk);
   for (const Contact& contact : packing.contacts) {

@@ -94,6 +94,7 @@ struct ContactState {
 };
 
 /// Disks, walls, levers and gravity of a packing; friction is `friction`. Fixed disks are at rest.
+/// Throws InputError if a wall is loaded.
 World world_of(const Packing& packing, const Friction& friction);
 
 /// Friction coefficients that somebody asks for; what is empty is left to the packing.

@@ -27,6 +27,12 @@ inline constexpr double kNormalDirection = 1e-4;
 /// the internal unit.
 inline constexpr double kBalance = 1e-6;
 
+/// Loads of bodies that nothing fixed holds cancel if their sum is up to this, relative to their sizes.
+inline constexpr double kCancellingLoads = 1e-9;
+
+/// A fixed body takes a direction of force if its own is not perpendicular to it to this (radian).
+inline constexpr double kFreeDirection = 1e-9;
+
 // Dumps of LAMMPS.
 
 /// Contact points of one wall: their normals differ by less than this (radian), and they lie this near to one

@@ -1,7 +1,10 @@
 #include "libindet/drawing/sheet.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "libindet/base/tolerances.h"
 #include "libindet/drawing/palette.h"
@@ -64,6 +67,7 @@ void Sheet::draw_bodies() {
       canvas_->hatch(place(disk.position), disk.radius * scale_, palette::kDiskOutline, thickness);
   }
   draw_wall_lines(domain);
+  draw_loads(domain);
 }
 
 void Sheet::finish() {
@@ -109,6 +113,47 @@ void Sheet::draw_wall_lines(const std::vector<Vector2>& domain) {
              std::abs((to - w.point).dot(w.normal)) < close;
     });
     if (wall && (to - from).norm() > close) canvas_->line(place(from), place(to), 1, palette::kBlack);
+  }
+}
+
+/// At the middle of each loaded wall's part of the domain's edge: an arrow for what pushes along its normal,
+/// a thinner one along its tangent, with the loads in units of force.
+void Sheet::draw_loads(const std::vector<Vector2>& domain) {
+  constexpr double kArrow = 16;
+  constexpr double kText = 6;
+  const double close = tolerance::kSamePoint * (high_ - low_).norm();
+  const double unit = packing_.force_unit();
+  const auto arrow = [&](const Vector2& tip, const Vector2& towards, double thickness) {
+    const Vector2 side(-towards.y(), towards.x());
+    canvas_->line(tip - kArrow * towards, tip, thickness, palette::kLoad, false, false);
+    canvas_->polygon({tip, tip - 5 * towards + 2.5 * side, tip - 5 * towards - 2.5 * side}, palette::kLoad);
+  };
+  for (const Wall& wall : packing_.walls) {
+    if (!wall.is_loaded()) continue;
+    Vector2 middle = wall.point;
+    double longest = 0;
+    for (std::size_t i = 0; i < domain.size(); ++i) {
+      const Vector2& from = domain[i];
+      const Vector2& to = domain[(i + 1) % domain.size()];
+      const bool on_wall = std::abs((from - wall.point).dot(wall.normal)) < close &&
+                           std::abs((to - wall.point).dot(wall.normal)) < close;
+      if (!on_wall || (to - from).norm() <= longest) continue;
+      longest = (to - from).norm();
+      middle = (from + to) / 2;
+    }
+    const Vector2 at = place(middle);
+    std::string text;
+    if (wall.is_free_along_normal()) {
+      const Vector2 towards = direction(wall.load_n < 0 ? Vector2(-wall.normal) : wall.normal);
+      if (wall.load_n != 0) arrow(at + 2 * towards, towards, 1.5);
+      text = fmt::format("{:.3g}", wall.load_n / unit);
+    }
+    if (wall.is_free_along_tangent()) {
+      const Vector2 towards = direction(wall.load_t < 0 ? Vector2(-wall.tangent()) : wall.tangent());
+      if (wall.load_t != 0) arrow(at + 0.5 * kArrow * towards, towards, 0.75);
+      text += fmt::format("{}t: {:.3g}", text.empty() ? "" : ", ", wall.load_t / unit);
+    }
+    canvas_->text(at + Vector2(3, -3), text, kText);
   }
 }
 

@@ -48,6 +48,7 @@ class Sheet {
  private:
   void measure();
   void draw_wall_lines(const std::vector<Vector2>& domain);
+  void draw_loads(const std::vector<Vector2>& domain);
 
   const Packing& packing_;
   Vector2 low_{0, 0}, high_{0, 0};

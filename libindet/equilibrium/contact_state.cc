@@ -29,6 +29,29 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(c
   return residual;
 }
 
+Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Packing& packing,
+                                                                        const SceneForces& forces) {
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> residual(packing.wall_count(), 2);
+  const double unit = packing.force_unit();
+  for (int w = 0; w < packing.wall_count(); ++w)
+    residual.row(w) << packing[WallId(w)].load_n / unit, packing[WallId(w)].load_t / unit;
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Body wall = packing[ContactId(i)].b;
+    if (!wall.is_wall()) continue;
+    residual.row(wall.wall_id().value()) -= forces.value().segment<2>(2 * i).transpose() / unit;
+  }
+  for (double& value : residual.reshaped()) value = std::isnan(value) ? 0 : value;
+  return residual;
+}
+
+double largest_imbalance(const Packing& packing, const SceneForces& forces) {
+  double largest = 0;
+  if (packing.disk_count() > 0) largest = equilibrium_residual(packing, forces).cwiseAbs().maxCoeff();
+  if (packing.has_loaded_walls())
+    largest = std::max(largest, wall_residual(packing, forces).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 CoulombCount count_coulomb(const Packing& packing, const SceneForces& forces, double epsilon) {
   CoulombCount count;
   const ForceUnits units = packing.force_units();

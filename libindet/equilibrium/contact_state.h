@@ -11,6 +11,13 @@ namespace indet {
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(const Packing& packing,
                                                                                const SceneForces& forces);
 
+/// The same of each wall along its normal and tangent, [W, 2]: load − ΣR, load − ΣT; 0 where it is not free.
+Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Packing& packing,
+                                                                        const SceneForces& forces);
+
+/// The largest of both, by magnitude; 0 for a packing without bodies.
+double largest_imbalance(const Packing& packing, const SceneForces& forces);
+
 /// How a contact state stands to the Coulomb conditions [16], with tolerance ε (in the internal unit of
 /// force, which is mg unless the scene names a unit that says little about it).
 struct CoulombCount {

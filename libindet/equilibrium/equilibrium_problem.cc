@@ -41,8 +41,9 @@ int edge_sign(ContactMode mode, int k) {
 class RowNumbering {
  public:
   RowNumbering(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units)
-      : numbers_(packing.disks.size(), {-1, -1, -1}) {
+      : numbers_(packing.disks.size(), {-1, -1, -1}), wall_numbers_(packing.walls.size(), {-1, -1}) {
     std::vector<std::array<bool, 3>> needed(packing.disks.size(), {false, false, false});
+    std::vector<std::array<bool, 2>> needed_of_wall(packing.walls.size(), {false, false});
     const auto touch = [&](DiskId disk, bool turns) {
       if (!packing.has_equations(disk)) return;
       auto& components = needed[static_cast<std::size_t>(disk.value())];
@@ -55,7 +56,13 @@ class RowNumbering {
       if (mode == ContactMode::kOpen) continue;
       const bool turns = mode != ContactMode::kFrictionless;
       touch(contact.a, turns);
-      if (!contact.b.is_wall()) touch(contact.b.disk_id(), turns);
+      if (contact.b.is_wall()) {
+        auto& components = needed_of_wall[static_cast<std::size_t>(contact.b.wall_id().value())];
+        components[0] = true;
+        components[1] = components[1] || turns;
+      } else {
+        touch(contact.b.disk_id(), turns);
+      }
     }
     for (int i = 0; i < packing.disk_count(); ++i) {
       const Vector3 wrench = packing.wrench(DiskId(i));
@@ -66,8 +73,19 @@ class RowNumbering {
         if (!needed[number][component] && wrench[k] == 0) continue;
         numbers_[number][component] = static_cast<int>(rows_.size());
         const double weight = k < 2 ? std::abs(disk.mass * packing.gravity[k]) : 0;
-        rows_.push_back({DiskId(i), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
+        rows_.push_back({Body::disk(DiskId(i)), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
                          weight + std::abs(disk.load[k])});
+      }
+    }
+    for (int w = 0; w < packing.wall_count(); ++w) {
+      const Wall& wall = packing[WallId(w)];
+      for (int k = 0; k < 2; ++k) {
+        const double load = k == 0 ? wall.load_n : wall.load_t;
+        const auto number = static_cast<std::size_t>(w);
+        const auto component = static_cast<std::size_t>(k);
+        if (std::isnan(load) || (!needed_of_wall[number][component] && load == 0)) continue;
+        wall_numbers_[number][component] = static_cast<int>(rows_.size());
+        rows_.push_back({Body::wall(WallId(w)), k, units.internal_in_scene(), std::abs(load)});
       }
     }
   }
@@ -75,10 +93,14 @@ class RowNumbering {
   int operator()(DiskId disk, int component) const {
     return numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
   }
+  int operator()(WallId wall, int component) const {
+    return wall_numbers_[static_cast<std::size_t>(wall.value())][static_cast<std::size_t>(component)];
+  }
   const std::vector<EquilibriumRow>& rows() const { return rows_; }
 
  private:
   std::vector<std::array<int, 3>> numbers_;
+  std::vector<std::array<int, 2>> wall_numbers_;
   std::vector<EquilibriumRow> rows_;
 };
 
@@ -94,6 +116,22 @@ void add_column(const RowNumbering& number, const Contact& contact, const Contac
   };
   if (ends.a >= 0) add(contact.a, 1, ends.arm_a);
   if (ends.b >= 0) add(contact.b.disk_id(), -1, ends.arm_b);
+  if (!contact.b.is_wall()) return;
+  const int along_normal = number(contact.b.wall_id(), 0);
+  const int along_tangent = number(contact.b.wall_id(), 1);
+  if (along_normal >= 0 && R != 0) out.emplace_back(along_normal, column, -R);
+  if (along_tangent >= 0 && T != 0) out.emplace_back(along_tangent, column, -T);
+}
+
+/// What acts in an equation, in a unit of force.
+double load_of(const Packing& packing, const EquilibriumRow& row, double unit) {
+  if (row.body.is_wall()) {
+    const Wall& wall = packing[row.body.wall_id()];
+    return (row.component == 0 ? wall.load_n : wall.load_t) / unit;
+  }
+  Vector3 wrench = packing.wrench(row.body.disk_id()) / unit;
+  wrench.z() /= packing[row.body.disk_id()].radius;
+  return wrench[row.component];
 }
 
 /// The edges, and what follows from them and the modes alone: to_edges, edge_forces.
@@ -172,6 +210,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   EquilibriumProblem problem;
   problem.units = packing.force_units();
   problem.disks = packing.disk_count();
+  problem.walls = packing.wall_count();
   problem.modes.assign(modes.begin(), modes.end());
   const RowNumbering number(packing, modes, problem.units);
   problem.rows = number.rows();
@@ -210,9 +249,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   problem.right_hand_sides.resize(equations, 1);
   for (int row = 0; row < equations; ++row) {
     const EquilibriumRow& r = problem.rows[static_cast<std::size_t>(row)];
-    Vector3 wrench = packing.wrench(r.disk) / problem.units.internal_in_scene();
-    wrench.z() /= packing[r.disk].radius;
-    problem.right_hand_sides(row, 0) = -wrench[r.component];
+    problem.right_hand_sides(row, 0) = -load_of(packing, r, problem.units.internal_in_scene());
   }
   return problem;
 }
@@ -225,6 +262,7 @@ EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<c
   EquilibriumProblem result;
   result.units = problem.units;
   result.disks = problem.disks;
+  result.walls = problem.walls;
   result.modes.assign(modes.begin(), modes.end());
   result.contacts = problem.contacts;
   describe_unknowns(result);

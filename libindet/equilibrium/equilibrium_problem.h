@@ -25,8 +25,8 @@ std::vector<ContactMode> natural_modes(const Packing& packing);
 
 /// What one equation balances.
 struct EquilibriumRow {
-  DiskId disk;
-  int component = 0;  ///< 0: force x, 1: force y, 2: torque divided by the radius
+  Body body;
+  int component = 0;  ///< disk: 0 force x, 1 force y, 2 torque divided by the radius; wall: 0 n̂, 1 t̂
   double unit = 1;    ///< of the equation as it would read in the scene's units: the internal unit of force,
                       ///< times the radius for a torque
   double load = 0;    ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
@@ -46,7 +46,7 @@ struct Edge {
 struct ContactEnds {
   Vector2 normal{0, 0};  ///< n̂
   double mu = 0;
-  int a = -1, b = -1;  ///< the equation of force x of each body; force y is the next. −1: it has none.
+  int a = -1, b = -1;  ///< the equation of force x of each disk; force y is the next. −1: it has none.
   double arm_a = 1, arm_b = 1;  ///< l/r of each body: what T adds to its torque equation
 
   /// t̂ = n̂ × ẑ [10].
@@ -61,7 +61,8 @@ struct ContactEnds {
 /// Paper: cF = −w [5, 15]. Torque equations are divided by the disk's radius; the coefficients are then n̂, t̂
 /// and l/r, whatever the scale of the scene: 1, unless the contact has another lever arm l. A disk whose
 /// contacts are all frictionless has no torque equation (unless a torque acts on it); a fixed disk, and one
-/// with neither contact nor load, has none.
+/// with neither contact nor load, has none. A loaded wall has −ΣR = −load_n, −ΣT = −load_t, what of it is
+/// given: as body b of its contacts it takes their forces with the minus sign, as a disk does.
 ///
 /// Columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or nothing
 /// (kOpen):   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
@@ -77,7 +78,8 @@ struct EquilibriumProblem {
   Eigen::SparseMatrix<double> edge_matrix;  ///< A on edges: equations × unknowns, edge_matrix · x = b
   Eigen::SparseMatrix<double> edge_forces;  ///< 2M × unknowns: F = edge_forces · x
   ForceUnits units;                         ///< from the internal unit to others
-  int disks = 0;                            ///< N
+  int disks = 0;                            ///< N, fixed ones too
+  int walls = 0;                            ///< W
 
   int unknowns() const { return static_cast<int>(matrix.cols()); }
   int equations() const { return static_cast<int>(matrix.rows()); }

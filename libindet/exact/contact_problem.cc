@@ -31,13 +31,18 @@ IntegerColumn integer_column(Entries entries) {
   return column;
 }
 
-/// Number of each equation of each disk, −1 where it would read 0 = 0.
+/// Number of each equation of each disk and loaded wall, −1 where it would read 0 = 0.
 class RowNumbers {
  public:
-  explicit RowNumbers(const Packing& packing) : numbers_(packing.disks.size(), {-1, -1, -1}) {
+  explicit RowNumbers(const Packing& packing)
+      : numbers_(packing.disks.size(), {-1, -1, -1}), wall_numbers_(packing.walls.size(), {-1, -1}) {
     for (const indet::Contact& contact : packing.contacts) {
       if (packing.has_equations(contact.a)) touch(contact.a, contact.mu > 0);
-      if (packing.has_equations(contact.b)) touch(contact.b.disk_id(), contact.mu > 0);
+      if (packing.is_free_disk(contact.b)) touch(contact.b.disk_id(), contact.mu > 0);
+      if (!contact.b.is_wall()) continue;
+      const Wall& wall = packing[contact.b.wall_id()];
+      if (wall.is_free_along_normal()) need(contact.b.wall_id(), 0);
+      if (wall.is_free_along_tangent() && contact.mu > 0) need(contact.b.wall_id(), 1);
     }
   }
   int operator()(DiskId disk, int component) const {
@@ -48,8 +53,17 @@ class RowNumbers {
     if (number < 0) number = count_++;
     return number;
   }
+  int operator()(WallId wall, int component) const {
+    return wall_numbers_[static_cast<std::size_t>(wall.value())][static_cast<std::size_t>(component)];
+  }
+  int& need(WallId wall, int component) {
+    int& number = wall_numbers_[static_cast<std::size_t>(wall.value())][static_cast<std::size_t>(component)];
+    if (number < 0) number = count_++;
+    return number;
+  }
   int count() const { return count_; }
   const std::vector<std::array<int, 3>>& all() const { return numbers_; }
+  const std::vector<std::array<int, 2>>& of_walls() const { return wall_numbers_; }
 
  private:
   void touch(DiskId disk, bool turns) {
@@ -58,6 +72,7 @@ class RowNumbers {
     if (turns) need(disk, 2);
   }
   std::vector<std::array<int, 3>> numbers_;
+  std::vector<std::array<int, 2>> wall_numbers_;
   int count_ = 0;
 };
 
@@ -94,7 +109,7 @@ struct Ends {
   mpq_class arm_a, arm_b;
 };
 
-/// R n̂ + T t̂ on a, the opposite on b, and T times its arm on both torques.
+/// R n̂ + T t̂ on a, the opposite on b, and T times its arm on both torques; −R and −T on a loaded wall.
 Entries force_entries(const Packing& packing, const RowNumbers& number, const indet::Contact& contact,
                       const Ends& ends, const mpq_class& R, const mpq_class& T) {
   const mpq_class nx(contact.normal.x());
@@ -108,7 +123,13 @@ Entries force_entries(const Packing& packing, const RowNumbers& number, const in
     if (T != 0) entries.emplace_back(number(disk, 2), arm * T);
   };
   if (packing.has_equations(contact.a)) add(contact.a, 1, ends.arm_a);
-  if (packing.has_equations(contact.b)) add(contact.b.disk_id(), -1, ends.arm_b);
+  if (packing.is_free_disk(contact.b)) add(contact.b.disk_id(), -1, ends.arm_b);
+  if (contact.b.is_wall()) {
+    const int along_normal = number(contact.b.wall_id(), 0);
+    const int along_tangent = number(contact.b.wall_id(), 1);
+    if (along_normal >= 0) entries.emplace_back(along_normal, -R);
+    if (along_tangent >= 0) entries.emplace_back(along_tangent, -T);
+  }
   return entries;
 }
 
@@ -150,7 +171,15 @@ ContactProblem::ContactProblem(const Packing& packing) {
       if (value != 0) wrench.emplace_back(number.need(DiskId(i), k), value);
     }
   }
+  for (int w = 0; w < packing.wall_count(); ++w) {
+    const Wall& wall = packing[WallId(w)];
+    for (int k = 0; k < 2; ++k) {
+      const double load = k == 0 ? wall.load_n : wall.load_t;
+      if (!std::isnan(load) && load != 0) wrench.emplace_back(number.need(WallId(w), k), mpq_class(load));
+    }
+  }
   row_of_ = number.all();
+  row_of_wall_ = number.of_walls();
   for (const auto& [row, value] : wrench) load_scale_ = lcm(load_scale_, value.get_den());
   load_.assign(static_cast<std::size_t>(number.count()), 0);
   for (const auto& [row, value] : wrench)

@@ -13,6 +13,7 @@ namespace indet::exact {
 /// they are (docs/decisions/exact-problem.md):
 ///
 ///   for each free disk:  Σ χ (R n̂ + T t̂) + m g + load = 0,   Σ l T + load_z = 0,   t̂ = (n_y, −n_x), χ = ±1
+///   for each loaded wall, where it is free:  −ΣR + load_n = 0,  −ΣT + load_t = 0
 ///   for each contact:  R ≥ 0,  |T| ≤ μR
 ///
 /// n̂ is what is stored, also where its length is not exactly 1; products, sums and quotients are exact.
@@ -32,9 +33,12 @@ class ContactProblem {
   int contacts() const { return static_cast<int>(contacts_.size()); }
   int edges() const { return 2 * contacts(); }
   bool has_edge(int edge) const;
-  /// The row of an equation of a disk (0: force x, 1: force y, 2: torque), −1 if it reads 0 = 0.
-  int row(DiskId disk, int component) const {
-    return row_of_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
+  /// The row of an equation of a disk (0: force x, 1: force y, 2: torque) or wall (0: along the normal,
+  /// 1: along the tangent), −1 if it reads 0 = 0 or the wall is not free.
+  int row(Body body, int component) const {
+    const auto k = static_cast<std::size_t>(component);
+    return body.is_wall() ? row_of_wall_[static_cast<std::size_t>(body.wall_id().value())][k]
+                          : row_of_[static_cast<std::size_t>(body.disk_id().value())][k];
   }
   /// What the torque row of a disk is divided by (its radius, or the power of two in its place), over its
   /// radius. A motion has this times rω in that row.
@@ -74,6 +78,7 @@ class ContactProblem {
   void find_independent_rows();
 
   std::vector<std::array<int, 3>> row_of_;
+  std::vector<std::array<int, 2>> row_of_wall_;
   std::vector<double> spin_scale_;
   std::vector<Contact> contacts_;
   std::vector<mpz_class> load_;

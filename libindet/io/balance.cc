@@ -44,6 +44,14 @@ BalanceReport report_balance(const ImportedPacking& imported) {
       report.worst_torque = DiskId(i);
     }
   }
+  const auto of_walls = wall_residual(packing, forces);
+  for (int w = 0; w < packing.wall_count(); ++w) {
+    const double force = of_walls.row(w).norm();
+    if (force > report.wall_residual) {
+      report.wall_residual = force;
+      report.worst_wall = WallId(w);
+    }
+  }
   const CoulombCount coulomb = count_coulomb(packing, forces, tolerance::kSliding);
   report.coulomb_violations = coulomb.violated;
   report.worst_violation = coulomb.worst_violation;
@@ -75,7 +83,16 @@ double default_balance_tolerance(const ImportedPacking& imported) {
 
 void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
   const double worst = std::max(report.force_residual, report.torque_residual);
-  if (!report.forces_known || worst <= tolerance) return;
+  if (!report.forces_known) return;
+  if (worst <= tolerance && report.wall_residual <= tolerance) return;
+  if (report.wall_residual > worst) {
+    const Wall& wall = imported.packing[report.worst_wall];
+    throw InputError(fmt::format(
+        "the forces do not balance: on wall {} the net force is {:.3g} mg, above {:.3g} mg. Are load_n and "
+        "load_t what pushes this wall, and are all of its contacts listed? If the deviation is acceptable, "
+        "raise --balance-tol; the ranges do not depend on the simulated forces.",
+        wall.name.empty() ? fmt::format("{}", wall.id) : wall.name, report.wall_residual, tolerance));
+  }
   const bool force = report.force_residual >= report.torque_residual;
   const DiskId disk = force ? report.worst_force : report.worst_torque;
   const bool loose = std::none_of(

@@ -15,6 +15,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/io/table.h"
+#include "libindet/packing/cancelling_loads.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
@@ -126,7 +127,7 @@ std::vector<Disk> read_disks(const Table& table, IdMap& ids) {
 
 std::vector<Wall> read_walls(const Table& table, IdMap& ids) {
   table.require({"id", "px", "py", "nx", "ny"});
-  table.allow_only({"id", "px", "py", "nx", "ny", "name"});
+  table.allow_only({"id", "px", "py", "nx", "ny", "name", "load_n", "load_t"});
   std::vector<Wall> walls;
   for (int row = 0; row < table.rows(); ++row) {
     Wall wall;
@@ -134,6 +135,12 @@ std::vector<Wall> read_walls(const Table& table, IdMap& ids) {
     wall.point = {table.number(row, "px"), table.number(row, "py")};
     wall.normal = {table.number(row, "nx"), table.number(row, "ny")};
     if (!table.is_empty(row, "name")) wall.name = table.text(row, "name");
+    if (!table.is_empty(row, "load_n")) wall.load_n = table.number(row, "load_n");
+    if (!table.is_empty(row, "load_t")) wall.load_t = table.number(row, "load_t");
+    for (const auto& [name, load] : {std::pair("load_n", wall.load_n), {"load_t", wall.load_t}}) {
+      if (!table.is_empty(row, name) && !std::isfinite(load))
+        table.fail(row, name, "must be a finite number, or empty where the wall is fixed");
+    }
     walls.push_back(wall);
   }
   return walls;
@@ -262,6 +269,11 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   validate(packing, scene.source);
   for (Wall& wall : packing.walls) set_unit_length(wall.normal);
   for (Contact& contact : packing.contacts) set_unit_length(contact.normal);
+  try {
+    for (std::string& note : take_out_cancelling_loads(packing)) imported.warnings.push_back(std::move(note));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", (folder / "walls.csv").string(), error.what()));
+  }
   warn_of_large_gaps(imported);
   return imported;
 }

@@ -21,6 +21,7 @@ namespace {
 constexpr std::string_view kDisksBegin = "id,x,y,radius,mass,inertia,angle,vx,vy,omega,fx,fy,torque";
 constexpr std::string_view kFixedColumn = ",fixed";
 constexpr std::string_view kWallsBegin = "id,px,py,nx,ny,name";
+constexpr std::string_view kLoadColumns = ",load_n,load_t";
 constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap";
 constexpr std::string_view kLeverColumns = ",lever_a,lever_b";
 constexpr std::string_view kSceneBegin = "gravity = [";
@@ -85,11 +86,14 @@ std::string disks_text(const Packing& packing, const FileIds& ids) {
 
 std::string walls_text(const Packing& packing, const FileIds& ids) {
   std::string text;
-  begin_table(text, kWallsBegin, false, {});
+  const bool has_loads = packing.has_loaded_walls();
+  begin_table(text, kWallsBegin, has_loads, kLoadColumns);
   for (std::size_t i = 0; i < packing.walls.size(); ++i) {
     const Wall& w = packing.walls[i];
-    text += fmt::format("{},{},{},{},{},{}\n", ids.walls[i], w.point.x(), w.point.y(), w.normal.x(),
+    text += fmt::format("{},{},{},{},{},{}", ids.walls[i], w.point.x(), w.point.y(), w.normal.x(),
                         w.normal.y(), quoted(w.name));
+    if (has_loads) text += fmt::format(",{},{}", field(w.load_n), field(w.load_t));
+    text += '\n';
   }
   return text;
 }
@@ -199,7 +203,8 @@ bool is_scene_table(std::string_view text) {
     if (!more.empty() && rest.starts_with(more)) rest.remove_prefix(more.size());
     return rest.starts_with('\n');
   };
-  if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, {}) || begins(kContactsBegin, kLeverColumns))
+  if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, kLoadColumns) ||
+      begins(kContactsBegin, kLeverColumns))
     return true;
   // One line, or two; whoever adds to them has a scene of their own.
   if (!text.starts_with(kSceneBegin)) return false;

@@ -111,6 +111,9 @@ void write_walls(Hdf5File& file, const std::vector<Wall>& walls) {
              {n, 2}, {"1", "unit normal into the domain x, y"});
   file.write_strings("/walls/name", column<std::string>(walls, [](const Wall& w) { return w.name; }),
                      {"1", "name of the wall"});
+  if (std::none_of(walls.begin(), walls.end(), [](const Wall& w) { return w.is_loaded(); })) return;
+  file.write("/walls/load", rows(walls, [](const Wall& w) { return Vector2(w.load_n, w.load_t); }), {n, 2},
+             {"force", "load along the normal and the tangent, NaN where the wall is not free"});
 }
 
 void write_contacts(Hdf5File& file, const std::vector<Contact>& contacts) {
@@ -178,12 +181,16 @@ std::vector<Wall> read_walls(const Hdf5File& file) {
   const auto point = file.read_doubles("/walls/point", {n, 2});
   const auto normal = file.read_doubles("/walls/normal", {n, 2});
   const auto name = file.read_strings("/walls/name", n);
+  const auto load =
+      file.has("/walls/load") ? file.read_doubles("/walls/load", {n, 2}) : std::vector<double>(2 * n, kNaN);
   std::vector<Wall> walls(n);
   for (std::size_t i = 0; i < n; ++i) {
     walls[i] = Wall{.id = id[i],
                     .point = {point[2 * i], point[2 * i + 1]},
                     .normal = {normal[2 * i], normal[2 * i + 1]},
-                    .name = name[i]};
+                    .name = name[i],
+                    .load_n = load[2 * i],
+                    .load_t = load[2 * i + 1]};
   }
   return walls;
 }
@@ -221,7 +228,8 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
 
 SchemaVersion schema_of(const Packing& packing) {
   const bool fixed = std::any_of(packing.disks.begin(), packing.disks.end(), is_fixed);
-  return fixed || packing.has_levers() ? SchemaVersion{2, 0} : SchemaVersion{1, 0};
+  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls();
+  return is_new ? SchemaVersion{2, 0} : SchemaVersion{1, 0};
 }
 
 void write_packing_part(Hdf5File& file, const Packing& packing) {

@@ -102,9 +102,11 @@ class FieldReader {
  public:
   FieldReader(const Hdf5File& file, const ForceRanges& ranges) : file_(file), ranges_(ranges) {
     sizes_[Extent::kOne] = 1;
+    sizes_[Extent::kDirections] = 2;
     sizes_[Extent::kComponents] = 3;
     sizes_[Extent::kColumns] = 4;
     sizes_[Extent::kDisks] = file.shape("/particles/disks/id", 1)[0];
+    sizes_[Extent::kWalls] = file.shape("/walls/id", 1)[0];
     sizes_[Extent::kContacts] = file.shape("/contacts/body_a", 1)[0];
     sizes_[Extent::kForces] = 2 * sizes_[Extent::kContacts];
   }

@@ -11,6 +11,17 @@ int Packing::free_disk_count() const {
   return static_cast<int>(std::count_if(disks.begin(), disks.end(), [](const Disk& d) { return !d.fixed; }));
 }
 
+bool Packing::has_loaded_walls() const {
+  return std::any_of(walls.begin(), walls.end(), [](const Wall& w) { return w.is_loaded(); });
+}
+
+int Packing::expected_dimension() const {
+  int directions = 0;
+  for (const Wall& wall : walls)
+    directions += (wall.is_free_along_normal() ? 1 : 0) + (wall.is_free_along_tangent() ? 1 : 0);
+  return 2 * contact_count() - 3 * free_disk_count() - directions;
+}
+
 double Packing::force_unit() const {
   if (named_force_unit > 0) return named_force_unit;
   const int count = free_disk_count();
@@ -32,6 +43,10 @@ double Packing::internal_force_unit() const {
     Vector3 load = wrench(DiskId(i));
     load.z() /= (*this)[DiskId(i)].radius;
     largest = std::max(largest, load.lpNorm<Eigen::Infinity>());
+  }
+  for (const Wall& wall : walls) {
+    if (wall.is_free_along_normal()) largest = std::max(largest, std::abs(wall.load_n));
+    if (wall.is_free_along_tangent()) largest = std::max(largest, std::abs(wall.load_t));
   }
   constexpr double kFar = 1000;
   if (largest == 0 || (largest < kFar * unit && unit < kFar * largest)) return unit;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -38,12 +39,24 @@ struct Disk {
   bool fixed = false;
 };
 
-/// A fixed half-plane: the domain is {x : normal · (x − point) ≥ 0}.
+/// A half-plane: the domain is {x : normal · (x − point) ≥ 0}. It is fixed, or loaded (a piston): then it is
+/// free to move along its normal, its tangent or both, but does not turn, and the sums over its contacts are
+///
+///     ΣR = load_n,  ΣT = load_t   (the weight of a lid is part of them).
 struct Wall {
   std::int32_t id = 0;
   Vector2 point{0, 0};
   Vector2 normal{0, 1};  ///< Unit vector, pointing into the domain.
   std::string name;
+  /// What pushes it along the normal, into the domain, and along the tangent. NaN: it is not free in that
+  /// direction; 0: it is free, and nothing pushes.
+  double load_n = std::numeric_limits<double>::quiet_NaN();
+  double load_t = std::numeric_limits<double>::quiet_NaN();
+
+  Vector2 tangent() const { return {normal.y(), -normal.x()}; }  ///< t̂ = n̂ × ẑ, as of contacts
+  bool is_free_along_normal() const { return !std::isnan(load_n); }
+  bool is_free_along_tangent() const { return !std::isnan(load_t); }
+  bool is_loaded() const { return is_free_along_normal() || is_free_along_tangent(); }
 };
 
 /// The second body of a contact: a disk or a wall. In files a wall w is written as −(w + 1).
@@ -101,8 +114,9 @@ struct Packing {
 
   int disk_count() const { return static_cast<int>(disks.size()); }
   int free_disk_count() const;  ///< N: disks that are not fixed.
-  /// 2M − 3N, the least nullity of c.
-  int expected_dimension() const { return 2 * contact_count() - 3 * free_disk_count(); }
+  bool has_loaded_walls() const;
+  /// 2M − 3N, less the directions in which walls are loaded: the least nullity of c.
+  int expected_dimension() const;
   int wall_count() const { return static_cast<int>(walls.size()); }
   int contact_count() const { return static_cast<int>(contacts.size()); }
 
@@ -112,9 +126,9 @@ struct Packing {
   double force_unit() const;
 
   /// The unit in which the equilibrium problem is solved and residuals are judged. force_unit(), unless that
-  /// says little about the scene: where the largest load on a disk is more than 1000 times larger or smaller,
-  /// the power of two next to that load. Tolerances then mean the same whatever unit a scene names. Throws
-  /// like force_unit().
+  /// says little about the scene: where the largest load on a disk or wall is more than 1000 times larger or
+  /// smaller, the power of two next to that load. Tolerances then mean the same whatever unit a scene names.
+  /// Throws like force_unit().
   double internal_force_unit() const;
 
   /// Between both and the scene's own unit. Throws like force_unit().
@@ -126,9 +140,13 @@ struct Packing {
   /// External wrench on disk i: m g plus its load (force x, force y, torque). 0 for a fixed disk.
   Vector3 wrench(DiskId disk) const;
 
-  /// True for a free disk. A contact between two bodies without equations has no part in the problem.
+  /// True for a free disk and a loaded wall. A contact between two bodies without equations has no part in
+  /// the problem.
   bool has_equations(DiskId disk) const { return !(*this)[disk].fixed; }
-  bool has_equations(Body body) const { return !body.is_wall() && has_equations(body.disk_id()); }
+  bool has_equations(Body body) const {
+    return body.is_wall() ? (*this)[body.wall_id()].is_loaded() : has_equations(body.disk_id());
+  }
+  bool is_free_disk(Body body) const { return !body.is_wall() && has_equations(body.disk_id()); }
 
   /// The arm of the torque of T on a; on b, 0 if b is a wall.
   double lever_a(ContactId contact) const { return lever_a((*this)[contact]); }

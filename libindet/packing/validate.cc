@@ -58,11 +58,17 @@ Reason disk_defect(const Disk& disk) {
       [&] { return not_finite("load", disk.load.sum()); });
 }
 
+Reason infinite(const char* name, double value) {
+  if (!std::isinf(value)) return {};
+  return fmt::format("{} must be a finite number or empty, but is {}", name, value);
+}
+
 Reason wall_defect(const Wall& wall) {
-  return first_of([&] { return not_finite("px", wall.point.x()); },
-                  [&] { return not_finite("py", wall.point.y()); },
-                  [&] { return not_finite("nx", wall.normal.x()); },
-                  [&] { return not_finite("ny", wall.normal.y()); }, [&] { return not_unit(wall.normal); });
+  return first_of(
+      [&] { return not_finite("px", wall.point.x()); }, [&] { return not_finite("py", wall.point.y()); },
+      [&] { return not_finite("nx", wall.normal.x()); }, [&] { return not_finite("ny", wall.normal.y()); },
+      [&] { return not_unit(wall.normal); }, [&] { return infinite("load_n", wall.load_n); },
+      [&] { return infinite("load_t", wall.load_t); });
 }
 
 Reason index_defect(const Packing& packing, const Contact& contact) {

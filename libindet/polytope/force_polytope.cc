@@ -16,16 +16,22 @@
 namespace indet {
 namespace {
 
-/// Spreads a motion of the equations' rows over the disks; largest entry 1.
+/// Spreads a motion of the equations' rows over disks and walls; largest entry 1.
 void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
   polytope.motion.setZero(problem.disks, 3);
+  const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),
+                                      [](const EquilibriumRow& row) { return row.body.is_wall(); });
+  polytope.wall_motion.setZero(walls_move ? problem.walls : 0, 2);
   const double largest = rows.lpNorm<Eigen::Infinity>();
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    // Entries at the level of rounding say nothing about which disk moves.
-    const double velocity = rows[i] / largest;
-    polytope.motion(row.disk.value(), row.component) =
-        std::abs(velocity) > tolerance::kMotionEntry ? velocity : 0;
+    // Entries at the level of rounding say nothing about which body moves.
+    const double velocity = std::abs(rows[i] / largest) > tolerance::kMotionEntry ? rows[i] / largest : 0;
+    if (row.body.is_wall()) {
+      polytope.wall_motion(row.body.wall_id().value(), row.component) = velocity;
+    } else {
+      polytope.motion(row.body.disk_id().value(), row.component) = velocity;
+    }
   }
 }
 
@@ -55,9 +61,9 @@ std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const Equi
   const double largest = motion.lpNorm<Eigen::Infinity>();
   for (Eigen::Index i = 0; i < motion.size(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    const int number = exact.row(row.disk, row.component);
+    const int number = exact.row(row.body, row.component);
     if (number < 0) continue;
-    const double scale = row.component == 2 ? exact.spin_scale(row.disk) : 1;
+    const double scale = row.component == 2 ? exact.spin_scale(row.body.disk_id()) : 1;
     result[static_cast<std::size_t>(number)] = motion[i] / largest * scale;
   }
   return result;

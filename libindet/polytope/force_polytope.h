@@ -64,6 +64,8 @@ struct ForcePolytope {
   /// If empty: virtual velocity (x, y, rω) of each disk under which the load does positive work while no
   /// contact resists [N, 3], largest entry 1.
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
+  /// The same of walls, if some are loaded: along the normal and the tangent [W, 2].
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_motion;
   std::int64_t pivots = 0;
   std::int64_t solves = 0;
 };

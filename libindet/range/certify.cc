@@ -21,8 +21,7 @@ StateResiduals residuals_of(const Packing& packing, double unit, const Rows<doub
   result.primal.resize(states.rows());
   for (Eigen::Index k = 0; k < states.rows(); ++k) {
     const SceneForces forces(states.row(k).transpose());
-    const double balance =
-        packing.disk_count() > 0 ? equilibrium_residual(packing, forces).cwiseAbs().maxCoeff() : 0;
+    const double balance = largest_imbalance(packing, forces);
     const double scale =
         std::max(least, forces.value().size() > 0 ? forces.value().lpNorm<Eigen::Infinity>() / unit : 0.0);
     result.primal[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale;

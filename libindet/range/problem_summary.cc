@@ -18,6 +18,7 @@ ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope) 
   summary.largest_rejected = null_space.largest_rejected;
   summary.force_unit = packing.force_unit();
   summary.motion = polytope.motion;
+  summary.wall_motion = polytope.wall_motion;
   return summary;
 }
 

@@ -26,6 +26,8 @@ struct ProblemSummary {
   double force_unit = std::numeric_limits<double>::quiet_NaN();  ///< mg in the scene's units.
   /// [N, 3] virtual velocity x, y and r·ω of each disk when F is empty.
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
+  /// [W, 2] the same of walls, along normal and tangent, where some wall is loaded.
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_motion;
 };
 
 ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope);

@@ -6,12 +6,16 @@ const char* to_string(Extent extent) {
   switch (extent) {
     case Extent::kOne:
       return "1";
+    case Extent::kDirections:
+      return "2";
     case Extent::kComponents:
       return "3";
     case Extent::kColumns:
       return "4";
     case Extent::kDisks:
       return "N";
+    case Extent::kWalls:
+      return "W";
     case Extent::kContacts:
       return "M";
     case Extent::kForces:

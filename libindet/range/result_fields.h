@@ -8,19 +8,21 @@
 
 namespace indet {
 
-/// How many: N disks, M contacts, K extremal states, Q rays, d = dim F.
+/// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F.
 enum class Extent : std::uint8_t {
   kOne,
+  kDirections,  ///< 2: along normal and tangent
   kComponents,  ///< 3: x, y, rotation
   kColumns,     ///< 4: R_min, R_max, T_min, T_max
   kDisks,       ///< N
+  kWalls,       ///< W
   kContacts,    ///< M
   kForces,      ///< 2M: R_1, T_1, …, R_M, T_M
   kStates,      ///< K
   kRays,        ///< Q
   kActive       ///< d
 };
-const char* to_string(Extent extent);  ///< "1", "3", "4", "N", "M", "2M", "K", "Q", "d".
+const char* to_string(Extent extent);  ///< "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d".
 
 /// When a field has something to say; else files leave it out.
 enum class Presence : std::uint8_t {
@@ -94,6 +96,10 @@ void visit_problem(Part& r, Visit& visit) {
               "virtual velocity x, y and r*omega with which the disks move where no state is admissible",
               FieldSource::kProof, Extent::kDisks, Extent::kComponents, Presence::kWhereRows},
         r.motion);
+  visit(Field{"/equilibrium", "wall_motion", "1",
+              "virtual velocity along normal and tangent with which loaded walls move then",
+              FieldSource::kProof, Extent::kWalls, Extent::kDirections, Presence::kWhereRows},
+        r.wall_motion);
 }
 
 template <class Part, class Visit>

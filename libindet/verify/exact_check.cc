@@ -126,7 +126,12 @@ class Check {
         return side * (force.x() * v[0] + force.y() * v[1]) + mu * v[2] * lever / packing_[disk].radius;
       };
       double total = power(contact.a, 1, packing_.lever_a(ContactId(e / 2)));
-      if (!contact.b.is_wall()) total += power(contact.b.disk_id(), -1, packing_.lever_b(ContactId(e / 2)));
+      if (!contact.b.is_wall()) {
+        total += power(contact.b.disk_id(), -1, packing_.lever_b(ContactId(e / 2)));
+      } else if (ranges_.wall_motion.rows() == packing_.wall_count()) {
+        const auto v = ranges_.wall_motion.row(contact.b.wall_id().value());
+        total -= v[0] + mu * v[1];
+      }
       preference[static_cast<std::size_t>(e)] = -std::abs(total);
     }
     const auto basis = basis_by(preference);

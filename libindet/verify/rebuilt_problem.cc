@@ -17,8 +17,14 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
       internal_unit_(packing.internal_force_unit() / force_unit_) {
   const int disks = packing.disk_count();
   const int contacts = packing.contact_count();
-  matrix_.setZero(3 * disks, 2 * contacts);
-  wrench_.setZero(3 * disks);
+  const int rows = 3 * disks + 2 * packing.wall_count();
+  matrix_.setZero(rows, 2 * contacts);
+  wrench_.setZero(rows);
+  for (int w = 0; w < packing.wall_count(); ++w) {
+    const Wall& wall = packing[WallId(w)];
+    if (!std::isnan(wall.load_n)) wrench_[3 * disks + 2 * w] = wall.load_n / force_unit_;
+    if (!std::isnan(wall.load_t)) wrench_[3 * disks + 2 * w + 1] = wall.load_t / force_unit_;
+  }
   for (int i = 0; i < disks; ++i) {
     const Disk& disk = packing[DiskId(i)];
     if (disk.fixed) continue;
@@ -38,7 +44,14 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
       matrix_.block<3, 2>(3 * id.value(), 2 * c) << chi * nx, chi * ny, chi * ny, -chi * nx, 0, arm;
     };
     place(contact.a, 1, contact.lever_a);
-    if (!contact.b.is_wall()) place(contact.b.disk_id(), -1, contact.lever_b);
+    if (!contact.b.is_wall()) {
+      place(contact.b.disk_id(), -1, contact.lever_b);
+    } else {
+      const Wall& wall = packing[contact.b.wall_id()];
+      const int row = 3 * disks + 2 * contact.b.wall_id().value();
+      if (!std::isnan(wall.load_n)) matrix_(row, 2 * c) = -1;
+      if (!std::isnan(wall.load_t)) matrix_(row + 1, 2 * c + 1) = -1;
+    }
     if (contact.mu == 0) frictionless.push_back(2 * c + 1);
   }
   Eigen::MatrixXd constraints(matrix_.rows() + static_cast<Eigen::Index>(frictionless.size()),
@@ -113,17 +126,19 @@ double RebuiltProblem::optimality_gap(int component, double sign, const std::vec
   return (normals * solve_nonnegative(normals, -gradient) + gradient).norm();
 }
 
-double RebuiltProblem::load_power(const Eigen::MatrixXd& motion) const {
-  double power = 0;
-  for (Eigen::Index i = 0; i < motion.rows(); ++i)
-    power += wrench_.segment<3>(3 * i).dot(motion.row(i).transpose());
-  return power;
+Eigen::VectorXd RebuiltProblem::flat_motion(const Eigen::MatrixXd& disks,
+                                            const Eigen::MatrixXd& walls) const {
+  Eigen::VectorXd flat = Eigen::VectorXd::Zero(matrix_.rows());
+  for (Eigen::Index i = 0; i < disks.rows(); ++i) flat.segment<3>(3 * i) = disks.row(i).transpose();
+  for (Eigen::Index w = 0; w < walls.rows(); ++w)
+    flat.segment<2>(3 * disks.rows() + 2 * w) = walls.row(w).transpose();
+  return flat;
 }
 
-double RebuiltProblem::smallest_contact_power(const Eigen::MatrixXd& motion) const {
-  Eigen::VectorXd flat(3 * motion.rows());
-  for (Eigen::Index i = 0; i < motion.rows(); ++i) flat.segment<3>(3 * i) = motion.row(i).transpose();
-  const Eigen::VectorXd relative = matrix_.transpose() * flat;
+double RebuiltProblem::load_power(const Eigen::VectorXd& motion) const { return wrench_.dot(motion); }
+
+double RebuiltProblem::smallest_contact_power(const Eigen::VectorXd& motion) const {
+  const Eigen::VectorXd relative = matrix_.transpose() * motion;
   double smallest = std::numeric_limits<double>::infinity();
   for (int c = 0; c < packing_.contact_count(); ++c) {
     const double mu = packing_[ContactId(c)].mu;

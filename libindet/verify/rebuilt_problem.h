@@ -9,9 +9,8 @@ namespace indet {
 
 /// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
 /// solved with other means than the analysis uses: a dense contact matrix [15] with all 2M columns (T is held
-/// at 0 where μ = 0 by a row of its own) and rows of 0 for fixed disks, and its kernel by column-pivoted
-/// Householder QR. Forces in units of
-/// the packing's force unit.
+/// at 0 where μ = 0 by a row of its own) and two rows a wall (0 for what is fixed), and its kernel by
+/// column-pivoted Householder QR. Forces in units of the packing's force unit.
 class RebuiltProblem {
  public:
   explicit RebuiltProblem(const Packing& packing);
@@ -46,16 +45,18 @@ class RebuiltProblem {
   /// within ker c (Farkas). 0 proves optimality.
   double optimality_gap(int component, double sign, const std::vector<int>& tight) const;
 
-  /// True if the virtual motion v [N, 3] (x, y, rω) proves that the packing cannot stand: the load's power,
-  /// and the smallest power of any edge of any contact cone.
-  double load_power(const Eigen::MatrixXd& motion) const;
-  double smallest_contact_power(const Eigen::MatrixXd& motion) const;
+  /// A virtual motion [N, 3] (x, y, rω) of disks, and of walls [W, 2] (along normal and tangent; or none) as
+  /// one column. It proves that the packing cannot stand if the load's power is positive, and the smallest
+  /// power of any edge of any contact cone is not negative.
+  Eigen::VectorXd flat_motion(const Eigen::MatrixXd& disks, const Eigen::MatrixXd& walls) const;
+  double load_power(const Eigen::VectorXd& motion) const;
+  double smallest_contact_power(const Eigen::VectorXd& motion) const;
 
  private:
   const Packing& packing_;
   double force_unit_, internal_unit_;
-  Eigen::MatrixXd matrix_;  ///< 3N × 2M
-  Eigen::VectorXd wrench_;  ///< 3N
+  Eigen::MatrixXd matrix_;  ///< (3N + 2W) × 2M
+  Eigen::VectorXd wrench_;  ///< 3N + 2W
   Eigen::MatrixXd kernel_;  ///< 2M × d
 };
 

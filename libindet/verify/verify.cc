@@ -64,8 +64,21 @@ class Verifier {
       compare_.require(!packing_[DiskId(i)].fixed || ranges_.motion.row(i).isZero(0),
                        "motion: disk {} is fixed, but moves", packing_[DiskId(i)].id);
     }
-    const double power = problem_.load_power(ranges_.motion);
-    const double resisted = problem_.smallest_contact_power(ranges_.motion);
+    const bool walls_move = ranges_.wall_motion.rows() > 0;
+    if (!compare_.require(!walls_move || ranges_.wall_motion.rows() == packing_.wall_count(),
+                          "wall_motion: {} rows for {} walls", ranges_.wall_motion.rows(),
+                          packing_.wall_count())) {
+      return;
+    }
+    for (int w = 0; walls_move && w < packing_.wall_count(); ++w) {
+      const Wall& wall = packing_[WallId(w)];
+      const bool is_held = (std::isnan(wall.load_n) && ranges_.wall_motion(w, 0) != 0) ||
+                           (std::isnan(wall.load_t) && ranges_.wall_motion(w, 1) != 0);
+      compare_.require(!is_held, "wall_motion: wall {} moves where it is not free", wall.id);
+    }
+    const Eigen::VectorXd motion = problem_.flat_motion(ranges_.motion, ranges_.wall_motion);
+    const double power = problem_.load_power(motion);
+    const double resisted = problem_.smallest_contact_power(motion);
     compare_.require(power > 0, "motion: the load does no work ({})", power);
     compare_.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})",
                      resisted);
@@ -283,6 +296,18 @@ class Verifier {
       if (!contact.b.is_wall()) touch(contact.b.disk_id());
     }
     std::int64_t count = 0;
+    for (int w = 0; w < packing_.wall_count(); ++w) {
+      const Wall& wall = packing_[WallId(w)];
+      bool touched = false;
+      bool rubbed = false;
+      for (const Contact& contact : packing_.contacts) {
+        if (contact.b != Body::wall(WallId(w))) continue;
+        touched = true;
+        rubbed = rubbed || contact.mu > 0;
+      }
+      count += !std::isnan(wall.load_n) && (touched || wall.load_n != 0) ? 1 : 0;
+      count += !std::isnan(wall.load_t) && (rubbed || wall.load_t != 0) ? 1 : 0;
+    }
     for (std::size_t i = 0; i < packing_.disks.size(); ++i) {
       const Vector3 load = packing_.wrench(DiskId(static_cast<int>(i)));
       for (int k = 0; k < 3; ++k) count += (k < 2 ? is_touched[i] : is_turned[i]) || load[k] != 0 ? 1 : 0;

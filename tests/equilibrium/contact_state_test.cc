@@ -29,6 +29,19 @@ TEST(ContactState, ResidualIsTheOneOfThePapersEquations) {
   }
 }
 
+TEST(ContactState, ResidualOfAWallIsItsLoadWithoutItsForces) {
+  Packing packing = zoo::disks_between_plates(2, 3, 0.5);
+  packing.gravity = {0, -2};
+  packing.walls[1].load_t = 0.5;
+  Eigen::VectorXd forces(8);
+  forces << 1, 0, 1, 0, 1.5, 0.25, 2, -0.75;
+  const auto residual = wall_residual(packing, SceneForces(forces));
+  EXPECT_TRUE(residual.row(0).isZero(0)) << "it is fixed";
+  EXPECT_EQ(residual(1, 0), (3 - 3.5) / 2);
+  EXPECT_EQ(residual(1, 1), (0.5 - -0.5) / 2);
+  EXPECT_GE(largest_imbalance(packing, SceneForces(forces)), 0.5);
+}
+
 TEST(ContactState, CoulombCountSortsContacts) {
   Packing packing = zoo::column(3, 0.5, 0.5);  // 6 contacts
   packing.contacts[5].mu = 0;

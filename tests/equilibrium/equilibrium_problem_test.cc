@@ -30,8 +30,8 @@ Eigen::MatrixXd rows_of(const Packing& packing, const EquilibriumProblem& proble
   Eigen::MatrixXd result(problem.equations(), paper.cols());
   for (int i = 0; i < problem.equations(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    result.row(i) = paper.row(3 * row.disk.value() + row.component);
-    if (row.component == 2) result.row(i) /= packing[row.disk].radius;
+    result.row(i) = paper.row(3 * row.body.disk_id().value() + row.component);
+    if (row.component == 2) result.row(i) /= packing[row.body.disk_id()].radius;
   }
   return result;
 }

@@ -39,6 +39,20 @@ TEST(Extremes, NoRandomSceneIsSilentlyWrong) {
   EXPECT_GT(total.right, 2 * (total.marked + total.contained));
 }
 
+/// Loads by chance seldom cancel where nothing is fixed; then the scene is empty, and must be called so.
+TEST(Extremes, NoSceneWithLoadedWallsIsSilentlyWrong) {
+  Tally total;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Scene scene = extremes::random_scene(seed, 3);
+    scene.name += ", loaded walls";
+    if (seed % 3 == 0) scene.packing = zoo::with_levers(scene.packing, seed);
+    scene.packing = zoo::with_loaded_walls(scene.packing, seed);
+    total.add(judge(scene));
+  }
+  EXPECT_EQ(total.wrong, 0);
+  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+}
+
 TEST(Extremes, NoSceneWithLeversOrFixedDisksIsSilentlyWrong) {
   Tally total;
   int scenes = 0;

@@ -100,6 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
                      p.walls[0].normal = {0, 0.5};
                    },
                    PackingPart::kWall, 0, "length 0.5"},
+        BadPacking{"InfiniteLoad", [](Packing& p) { p.walls[0].load_t = kInf; }, PackingPart::kWall, 0,
+                   "load_t must be a finite number or empty"},
         BadPacking{"NoForceUnit",
                    [](Packing& p) {
                      p.gravity = {0, 0};
@@ -161,6 +163,17 @@ TEST(Packing, TheLeverIsTheRadiusUnlessGiven) {
   packing.contacts[2].lever_b = 0.7;
   EXPECT_EQ(packing.lever_a(ContactId(2)), 0.9);
   EXPECT_EQ(packing.lever_b(ContactId(2)), 0.7);
+}
+
+TEST(Packing, LoadedWallsTakeTheirDirectionsFromTheLeastNullity) {
+  Packing packing = two_disks();
+  EXPECT_EQ(packing.expected_dimension(), 0);
+  packing.walls[0].load_n = 2;
+  EXPECT_EQ(packing.expected_dimension(), -1);
+  EXPECT_TRUE(packing.has_equations(Body::wall(WallId(0))));
+  EXPECT_FALSE(packing.is_free_disk(Body::wall(WallId(0))));
+  packing.walls[0].load_t = 0;
+  EXPECT_EQ(packing.expected_dimension(), -2);
 }
 
 TEST(Packing, GapIsNegativeWhereDisksOverlap) {

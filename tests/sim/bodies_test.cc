@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,6 +6,7 @@
 #include <numbers>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/error.h"
 #include "libindet/base/random.h"
 #include "libsim/perturb_sampling.h"
 #include "libsim/static_solver.h"
@@ -186,6 +188,18 @@ TEST(Levers, OfChanceAreBalancedByThePolishAndByPerturbation) {
       EXPECT_LT(sum.row(i).lpNorm<Eigen::Infinity>() / packing.force_unit(), 1e-8);
     }
   }
+}
+
+TEST(LoadedWalls, AreRefusedWithWhatTakesThem) {
+  Packing packing = with_equal_arms();
+  packing.walls[0].load_n = 1;
+  packing.walls[0].name = "piston";
+  const auto refuses = testing::ThrowsMessage<InputError>(
+      testing::AllOf(testing::HasSubstr("wall piston is loaded"), testing::HasSubstr("--method uniform")));
+  EXPECT_THAT([&] { perturb_and_resolve(packing, {}); }, refuses);
+  EXPECT_THAT([&] { polish(packing, packing.simulated_forces().value()); }, refuses);
+  EXPECT_THAT([&] { solve_statics(packing, packing.simulated_forces().value()); }, refuses);
+  EXPECT_THAT([&] { world_of(packing, {}); }, refuses);
 }
 
 TEST(FixedDisks, CannotBeSimulatedAlone) {

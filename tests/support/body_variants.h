@@ -14,6 +14,29 @@ Packing with_levers(Packing packing, std::uint64_t seed);
 /// About a third of the disks fixed, but not all, without the contacts that have no equations then.
 Packing with_fixed_disks(Packing packing, std::uint64_t seed);
 
+/// Loads between 0 and 3 along the normal of most walls, and small ones along the tangent of some.
+Packing with_loaded_walls(Packing packing, std::uint64_t seed);
+
+/// `count` disks of radius 1 side by side on a fixed floor, under a plate that `load` presses down. Without
+/// friction R of the plate is in [0, load] at each, and R of the floor larger by the weight of the disk; with
+/// friction as well, for nothing can push sideways. count = 1: a point.
+///
+///      ▁▁▁▁▁▁▁▁▁▁    contacts 0 … count − 1: the floor, then the plate
+///      ( ) ( ) ( )
+///     ============
+Packing disks_between_plates(int count, double load, double mu);
+
+/// The biaxial box: columns × rows disks of radius 1 on a square lattice, between fixed walls at the left and
+/// below and loaded ones at the right and above, without gravity; force unit 1. Without friction each row
+/// carries a share of from_right: R ∈ [0, from_right] at each of its contacts, and columns likewise.
+Packing biaxial_box(int columns, int rows, double from_right, double from_above, double mu);
+
+/// Three disks of radius 1 in a triangular rack, each touching both others and two of three frictionless
+/// walls at 120°, which a load presses inwards; no gravity, force unit 1. The loads cancel. By virtual work
+/// of a uniform contraction, the forces between disks add up to (√3/2) load: each is in [0, (√3/2) load]. dim
+/// F = 2.
+Packing rack(double load);
+
 /// A disk of radius and mass 1 on two fixed ones of the given radii, whose contacts are ±φ from the vertical:
 /// to the disk it is the groove of zoo::wedge, contact by contact, whatever the fixed disks weigh.
 ///

@@ -166,12 +166,28 @@ States enumerate_states(const Packing& packing) {
   for (int k = 0; k < packing.contact_count(); ++k)
     if (packing[ContactId(k)].mu == 0) frictionless.push_back(k);
   const auto extra = static_cast<Eigen::Index>(frictionless.size());
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(c.rows() + extra, c.cols());
+  // ΣR and ΣT of loaded walls; rows of 0 where a wall is not free.
+  const auto walls = static_cast<Eigen::Index>(2 * packing.wall_count());
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(c.rows() + extra + walls, c.cols());
   a.topRows(c.rows()) = c;
   for (Eigen::Index i = 0; i < extra; ++i)
     a(c.rows() + i, 2 * frictionless[static_cast<std::size_t>(i)] + 1) = 1;
   Eigen::VectorXd b = Eigen::VectorXd::Zero(a.rows());
   b.head(c.rows()) = -paper_wrench(packing);
+  const double unit = packing.force_unit();
+  for (int k = 0; k < packing.contact_count(); ++k) {
+    if (!packing[ContactId(k)].b.is_wall()) continue;
+    const int w = packing[ContactId(k)].b.wall_id().value();
+    const Eigen::Index row = c.rows() + extra + 2 * w;
+    if (!std::isnan(packing[WallId(w)].load_n)) a(row, 2 * k) = 1;
+    if (!std::isnan(packing[WallId(w)].load_t)) a(row + 1, 2 * k + 1) = 1;
+  }
+  for (int w = 0; w < packing.wall_count(); ++w) {
+    const Wall& wall = packing[WallId(w)];
+    const Eigen::Index row = c.rows() + extra + 2 * w;
+    if (!std::isnan(wall.load_n)) b[row] = wall.load_n / unit;
+    if (!std::isnan(wall.load_t)) b[row + 1] = wall.load_t / unit;
+  }
 
   States result;
   const DenseSolution linear = solve_dense(a, b);

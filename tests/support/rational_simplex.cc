@@ -7,7 +7,8 @@ namespace indet::oracle {
 
 RationalSimplex::RationalSimplex(const Packing& packing) {
   const std::size_t contacts = packing.contacts.size();
-  const std::size_t equations = 3 * packing.disks.size();
+  const std::size_t disk_rows = 3 * packing.disks.size();
+  const std::size_t equations = disk_rows + 2 * packing.walls.size();
   columns_ = 2 * contacts;
   const std::size_t artificial = columns_;
   rows_.assign(equations, std::vector<mpq_class>(columns_ + equations + 1, 0));
@@ -30,7 +31,14 @@ RationalSimplex::RationalSimplex(const Packing& packing) {
         rows_[row + 2][column] += tangential * mpq_class(std::isnan(lever) ? body.radius : lever);
       };
       act(contact.a.value(), 1, contact.lever_a);
-      if (!contact.b.is_wall()) act(contact.b.disk_id().value(), -1, contact.lever_b);
+      if (!contact.b.is_wall()) {
+        act(contact.b.disk_id().value(), -1, contact.lever_b);
+        continue;
+      }
+      const Wall& wall = packing[contact.b.wall_id()];
+      const std::size_t row = disk_rows + 2 * static_cast<std::size_t>(contact.b.wall_id().value());
+      if (!std::isnan(wall.load_n)) rows_[row][column] = 1;
+      if (!std::isnan(wall.load_t)) rows_[row + 1][column] = tangential;
     }
   }
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
@@ -40,6 +48,11 @@ RationalSimplex::RationalSimplex(const Packing& packing) {
     rows_[3 * i].back() = -(mass * mpq_class(packing.gravity.x()) + mpq_class(disk.load.x()));
     rows_[3 * i + 1].back() = -(mass * mpq_class(packing.gravity.y()) + mpq_class(disk.load.y()));
     rows_[3 * i + 2].back() = -mpq_class(disk.load.z());
+  }
+  for (std::size_t w = 0; w < packing.walls.size(); ++w) {
+    const Wall& wall = packing.walls[w];
+    if (!std::isnan(wall.load_n)) rows_[disk_rows + 2 * w].back() = mpq_class(wall.load_n);
+    if (!std::isnan(wall.load_t)) rows_[disk_rows + 2 * w + 1].back() = mpq_class(wall.load_t);
   }
   std::vector<mpq_class> costs(columns_ + equations, 0);
   for (std::size_t i = 0; i < equations; ++i) {

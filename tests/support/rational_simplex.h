@@ -14,6 +14,7 @@ namespace indet::oracle {
 /// are taken as they are:
 ///
 ///   for each free disk  Σ χ (R n̂ + T t̂) = −(m g + load),  Σ l T = −load_z;
+///   for each loaded wall  ΣR = load_n,  ΣT = load_t, as far as they are given;
 ///   R = p + q,  T = μ (p − q),  p, q ≥ 0
 class RationalSimplex {
  public:

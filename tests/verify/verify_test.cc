@@ -5,6 +5,7 @@
 
 #include "libindet/range/analyze.h"
 #include "libindet/verify/affine_hull.h"
+#include "libindet/verify/exact_check.h"
 #include "tests/support/body_variants.h"
 #include "tests/support/zoo.h"
 #include "tests/verify/first_message.h"
@@ -85,6 +86,31 @@ TEST(VerifyRanges, FixedDisksDoNotMove) {
   EXPECT_TRUE(verify_ranges(packing, wrong).passed());
   wrong.motion(1, 0) = 0.5;
   expect_contradiction(packing, wrong, "disk 2 is fixed, but moves");
+}
+
+TEST(VerifyRanges, AcceptsLoadedWalls) {
+  for (const Packing& packing : {zoo::disks_between_plates(3, 2, 0.3), zoo::biaxial_box(3, 2, 1, 2, 0.4)}) {
+    const ForceRanges good = analyze(packing);
+    EXPECT_TRUE(verify_ranges(packing, good).passed()) << first_message(verify_ranges(packing, good));
+    EXPECT_TRUE(check_exactly(packing, good).passed());
+    Packing other = packing;
+    for (Wall& wall : other.walls) wall.load_n *= 1.001;
+    EXPECT_FALSE(verify_ranges(other, good).passed());
+  }
+}
+
+TEST(VerifyRanges, ChecksTheMotionOfLoadedWalls) {
+  Packing packing = zoo::disks_between_plates(1, 2.5, 0.3);
+  packing.walls[1].load_t = 0.1;
+  const ForceRanges good = analyze(packing);
+  EXPECT_TRUE(verify_ranges(packing, good).passed()) << first_message(verify_ranges(packing, good));
+  EXPECT_TRUE(check_exactly(packing, good).proves_emptiness);
+  ForceRanges wrong = good;
+  wrong.wall_motion(0, 0) = 0.5;
+  EXPECT_FALSE(verify_ranges(packing, wrong).passed());
+  wrong = good;
+  wrong.wall_motion *= -1;
+  EXPECT_FALSE(verify_ranges(packing, wrong).passed());
 }
 
 TEST(VerifyRanges, SaysHowManyObjectivesFailedOrAreImprecise) {
