@@ -83,7 +83,7 @@ TEST(EquilibriumProblem, IsThePapersMatrixInEveryMode) {
       const Eigen::VectorXd generic = Eigen::VectorXd::LinSpaced(problem.unknowns(), 1, 2);
       Eigen::VectorXd balance =
           paper * (forces_of_unknowns(problem) * generic) + oracle::paper_wrench(packing);
-      for (const EquilibriumRow& row : problem.rows) balance[3 * row.disk.value() + row.component] = 0;
+      for (const EquilibriumRow& row : problem.rows) balance[3 * row.body.disk_id().value() + row.component] = 0;
       EXPECT_EQ(balance.lpNorm<Eigen::Infinity>(), 0);
     }
   }
@@ -143,7 +143,7 @@ void expect_same(const EquilibriumProblem& a, const EquilibriumProblem& b) {
   EXPECT_EQ(a.modes, b.modes);
   EXPECT_EQ(a.disks, b.disks);
   for (std::size_t k = 0; k < a.rows.size(); ++k) {
-    EXPECT_EQ(a.rows[k].disk, b.rows[k].disk);
+    EXPECT_EQ(a.rows[k].body, b.rows[k].body);
     EXPECT_EQ(a.rows[k].component, b.rows[k].component);
     EXPECT_EQ(a.rows[k].unit, b.rows[k].unit);
     EXPECT_EQ(a.rows[k].load, b.rows[k].load);
@@ -185,12 +185,12 @@ TEST(EquilibriumProblem, EveryContactNamesItsEquations) {
       ASSERT_EQ(ends.b < 0, is_open || contact.b.is_wall() || packing[contact.b.disk_id()].fixed);
       for (int k = 0; k < 2 && ends.a >= 0; ++k) {
         const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(ends.a + k)];
-        EXPECT_EQ(row.disk, contact.a);
+        EXPECT_EQ(row.body, Body::disk(contact.a));
         EXPECT_EQ(row.component, k);
       }
       for (int k = 0; k < 2 && ends.b >= 0; ++k) {
         const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(ends.b + k)];
-        EXPECT_EQ(row.disk, contact.b.disk_id());
+        EXPECT_EQ(row.body, contact.b);
         EXPECT_EQ(row.component, k);
       }
     }

@@ -90,9 +90,9 @@ TEST(Certificate, AMotionWithRoundingBecomesExact) {
   const Packing packing = zoo::disk_on_incline(0.3, 0.5);
   const ContactProblem problem(packing);
   std::vector<double> motion(3);
-  motion[static_cast<std::size_t>(problem.row(DiskId(0), 0))] = std::cos(0.3) + 1e-13;
-  motion[static_cast<std::size_t>(problem.row(DiskId(0), 1))] = -std::sin(0.3);
-  motion[static_cast<std::size_t>(problem.row(DiskId(0), 2))] = -1;
+  motion[static_cast<std::size_t>(problem.row(Body::disk(DiskId(0)), 0))] = std::cos(0.3) + 1e-13;
+  motion[static_cast<std::size_t>(problem.row(Body::disk(DiskId(0)), 1))] = -std::sin(0.3);
+  motion[static_cast<std::size_t>(problem.row(Body::disk(DiskId(0)), 2))] = -1;
   EXPECT_TRUE(proves_emptiness(problem, motion, {}, 1e-9));
   for (double& velocity : motion) velocity = -velocity;
   EXPECT_FALSE(proves_emptiness(problem, motion, {}, 1e-9)) << "uphill";
@@ -122,8 +122,8 @@ TEST(Certificate, ProvesRankAndClosedEdges) {
   // Corner with μ_wall < 1: the wall carries nothing. x: R_wall + T_floor = 0; torque: T_floor + T_wall = 0.
   const ContactProblem corner(zoo::corner(0.3, 0.5));
   std::vector<double> motion(3, 0);
-  motion[static_cast<std::size_t>(corner.row(DiskId(0), 0))] = 1;
-  motion[static_cast<std::size_t>(corner.row(DiskId(0), 2))] = -1;
+  motion[static_cast<std::size_t>(corner.row(Body::disk(DiskId(0)), 0))] = 1;
+  motion[static_cast<std::size_t>(corner.row(Body::disk(DiskId(0)), 2))] = -1;
   // The floor contact rolls; the wall opens by 1 and slips by 1, so that its power R ± T with |T| ≤ R/2 is
   // positive.
   EXPECT_TRUE(proves_structure(corner, std::vector<Closing>{{{2, 3}, motion}}, 2));
