@@ -136,6 +136,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                               {"band", json_number(estimate.band)}};
     }
   }
+  if (ranges.reactions.count() > 0) json["reactions"] = reactions_to_json(packing, ranges.reactions);
   if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges);
   if (ranges.largest_norm >= 0)
     json["largest_norm"] = json_number(ranges.norm[ranges.largest_norm] / ranges.force_unit);

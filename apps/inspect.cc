@@ -169,6 +169,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                            {"max_delta_R", json_number(largest(r.delta_R))},
                            {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
                            {"max_delta_T", json_number(largest(r.delta_T))}});
+    if (r.reactions.count() > 0) json["ranges"]["reactions"] = reactions_to_json(packing, r.reactions);
     if (r.method == Method::kPivotingPaper) json["ranges"]["paper"] = describe_paper_work(r);
   }
   return json;
@@ -273,6 +274,23 @@ void print_sampling(const Account& s) {
   print_line("  balance", fmt::format("accepted samples to {} mg", s.text_of("worst_residual", "{:.1e}")));
 }
 
+/// Ranges of what walls and fixed disks bear, the first ones.
+void print_reactions(const Packing& packing, const ForceRanges& ranges) {
+  constexpr Eigen::Index kShown = 12;
+  const Reactions& r = ranges.reactions;
+  for (Eigen::Index k = 0; k < std::min(kShown, r.count()); ++k) {
+    const Body body = Body::from_code(r.body[k]);
+    const std::string name = body.is_wall() ? "wall " + describe_wall(packing[body.wall_id()])
+                                            : fmt::format("disk {}", packing[body.disk_id()].id);
+    const bool is_torque = !body.is_wall() && r.component[k] == 2;
+    const double unit = ranges.force_unit * (is_torque ? packing[body.disk_id()].radius : 1);
+    print_line(k == 0 ? "  reactions (mg)" : "",
+               fmt::format("{}, {}{}: {:.4g} … {:.4g}", name, reaction_component(body, r.component[k]),
+                           is_torque ? "/r" : "", r.value(k, 0) / unit, r.value(k, 1) / unit));
+  }
+  if (r.count() > kShown) print_line("", fmt::format("… and {} more sums", r.count() - kShown));
+}
+
 void print_ranges(const ForceRanges& r) {
   const auto measure = [](const Eigen::VectorXd& values) {
     const auto infinite = std::count_if(values.begin(), values.end(), [](double v) { return std::isinf(v); });
@@ -359,6 +377,7 @@ int run(const std::string& given, const Context& context) {
   if (contents.sampling) print_sampling(*contents.sampling);
   if (contents.ranges) {
     print_ranges(*contents.ranges);
+    print_reactions(contents.packing, *contents.ranges);
     print_line("  SHA-256", contents.digests.ranges);
   } else {
     print_line("force ranges", "none yet: indet analyze " + path);

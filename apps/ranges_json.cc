@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
+#include "apps/wording.h"
 #include "libindet/range/result_fields.h"
 
 namespace indet::app {
@@ -31,6 +33,28 @@ nlohmann::json summary_to_json(const ForceRanges& ranges) {
     }
   });
   return json;
+}
+
+nlohmann::json reactions_to_json(const Packing& packing, const Reactions& reactions) {
+  nlohmann::json list = nlohmann::json::array();
+  for (Eigen::Index k = 0; k < reactions.count(); ++k) {
+    const Body body = Body::from_code(reactions.body[k]);
+    nlohmann::json entry;
+    if (body.is_wall()) {
+      entry = {{"wall", packing[body.wall_id()].id}, {"name", packing[body.wall_id()].name}};
+    } else {
+      entry = {{"disk", packing[body.disk_id()].id}};
+    }
+    entry["component"] = reaction_component(body, reactions.component[k]);
+    for (const int end : {0, 1}) {
+      const std::string name = end == 0 ? "minimum" : "maximum";
+      entry[name] = json_number(reactions.value(k, end));
+      entry[name + "_bounds"] = {json_number(reactions.lower(k, end)), json_number(reactions.upper(k, end))};
+      entry[name + "_outcome"] = to_string(reactions.outcome(k, end));
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
 }
 
 }  // namespace indet::app

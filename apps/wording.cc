@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,13 @@ std::string describe_disks(const Packing& packing) {
 
 std::string describe_wall(const Wall& wall) {
   return wall.name.empty() ? fmt::format("{}", wall.id) : wall.name;
+}
+
+const char* reaction_component(Body body, int component) {
+  constexpr std::array<const char*, 2> kOfWalls = {"R", "T"};
+  constexpr std::array<const char*, 3> kOfDisks = {"x", "y", "torque"};
+  const auto k = static_cast<std::size_t>(component);
+  return body.is_wall() ? kOfWalls.at(k) : kOfDisks.at(k);
 }
 
 std::string describe_levers(const Packing& packing) {

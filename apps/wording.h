@@ -18,6 +18,9 @@ std::string describe_disks(const Packing& packing);
 /// The name of a wall, or its id where it has none.
 std::string describe_wall(const Wall& wall);
 
+/// "R", "T" of a wall, "x", "y", "torque" of a fixed disk.
+const char* reaction_component(Body body, int component);
+
 /// "of 40 of 376 contacts given, 0.9876 … 1 of the radius". Precondition: packing.has_levers().
 std::string describe_levers(const Packing& packing);
 

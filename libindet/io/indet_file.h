@@ -45,7 +45,7 @@ Digests compute_digests(const std::filesystem::path& path);
 /// The version of the format that a file is written in: one with a higher first number has what older readers
 /// would pass over and so misunderstand (docs/file-format.md).
 struct SchemaVersion {
-  std::int64_t major = 1, minor = 0;
+  std::int64_t major = 1, minor = 1;
 };
 
 // For the writers of such files.

@@ -229,7 +229,7 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
 SchemaVersion schema_of(const Packing& packing) {
   const bool fixed = std::any_of(packing.disks.begin(), packing.disks.end(), is_fixed);
   const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls();
-  return is_new ? SchemaVersion{2, 0} : SchemaVersion{1, 0};
+  return is_new ? SchemaVersion{2, 0} : SchemaVersion{};
 }
 
 void write_packing_part(Hdf5File& file, const Packing& packing) {

@@ -17,7 +17,7 @@ Packing read_packing(const std::filesystem::path& path);
 
 // For the writers of files that hold more.
 /// 2.0 where the packing has a lever, a fixed disk or a loaded wall, which readers of 1.0 would pass over;
-/// else 1.0.
+/// else 1.1.
 SchemaVersion schema_of(const Packing& packing);
 /// The part of a file that is its packing.
 void write_packing_part(Hdf5File& file, const Packing& packing);

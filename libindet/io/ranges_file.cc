@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/io/reactions_file.h"
 #include "libindet/range/result_fields.h"
 
 namespace indet {
@@ -244,6 +245,7 @@ void write_ranges_part(Hdf5File& file, const ForceRanges& ranges) {
   visit_fields(ranges, FieldWriter(file, ranges, false));
   if (ranges.choice == ContactChoice::Kind::kSample) file.set_attribute("/ranges", "confidence", kConfidence);
   file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
+  write_reactions_part(file, ranges.reactions);
 }
 
 void write_work_part(Hdf5File& file, const ForceRanges& ranges) {
@@ -279,6 +281,7 @@ ForceRanges read_ranges(const Hdf5File& file) {
   if (ranges.choice == ContactChoice::Kind::kAll) ranges.requested = static_cast<int>(ranges.value.rows());
   check_request(file, ranges);
   check_pointers(file, ranges);
+  ranges.reactions = read_reactions(file);
   ranges.seconds = file.number_attributes("/provenance/timings");
   return ranges;
 }

@@ -14,6 +14,7 @@
 #include "libindet/range/enclosure.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/extremal_search.h"
+#include "libindet/range/reactions.h"
 
 namespace indet {
 namespace {
@@ -42,6 +43,13 @@ bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, con
     if (!exact::proves_ray(exact, exact::edge_strengths(packing, ray), tolerance::kExactZero)) return false;
   }
   return true;
+}
+
+Rows<double> rows_of(const std::vector<Eigen::VectorXd>& vectors, Eigen::Index columns) {
+  Rows<double> rows(static_cast<Eigen::Index>(vectors.size()), columns);
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    rows.row(static_cast<Eigen::Index>(k)) = vectors[k].transpose();
+  return rows;
 }
 
 /// How the search of a polytope is to be done.
@@ -88,16 +96,22 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   const ForcePolytope polytope = find_force_polytope(packing, options.lp);
   stopwatch.mark("polytope");
   const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
-  const Extrema extrema =
-      find_extrema(polytope, contacts, packing.simulated_forces(), search_options(polytope, options));
+  const SearchOptions search = search_options(polytope, options);
+  const Extrema extrema = find_extrema(polytope, contacts, packing.simulated_forces(), search);
   stopwatch.mark("ranges");
   seconds["states"] = extrema.state_seconds;
   seconds["ranges"] -= extrema.state_seconds;
-  Enclosures enclosures = enclose_values(polytope, extrema);
+  const FoundReactions reactions = find_reactions(packing, polytope, search.formulation, options.lp);
+  stopwatch.mark("reactions");
+  Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima);
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
+  const bool reactions_proven =
+      enclosures.proven &&
+      proves_rays(packing, *polytope.exact, rows_of(reactions.rays, extrema.rays.cols()));
   stopwatch.mark("enclosures");
   ForceRanges ranges = assemble(packing, summarise(packing, polytope),
                                 describe_request(options.contacts, contacts.size()), extrema, enclosures);
+  ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);
   stopwatch.mark("measures");
   ranges.seconds = std::move(seconds);
   return ranges;

@@ -32,7 +32,7 @@ class Encloser {
     bound_states();
   }
 
-  Enclosures run() {
+  Enclosures run(std::span<const SumAtOptimum> sums) {
     sort_bases(extrema_.proofs);
     bound_strengths();
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
@@ -45,14 +45,44 @@ class Encloser {
     }
     const bool limited = polytope_.status != PolytopeStatus::kBounded || std::isfinite(total_);
     enclosures_.proven = !polytope_.doubtful && inside_ && limited;
+    for (const SumAtOptimum& sum : sums) enclosures_.sums.push_back(enclose_sum(sum));
     return std::move(enclosures_);
   }
 
  private:
-  /// A linear functional: its coefficients on the unknowns u and on the edges x of one contact.
+  /// A linear functional by its coefficients on the unknowns u and on the edges x, ascending. Where these are
+  /// sums in which digits cancel, `sizes` are those of their parts.
   struct Functional {
     std::vector<std::pair<int, double>> on_unknowns, on_edges;
+    std::vector<double> unknown_sizes, edge_sizes;  ///< empty: the sizes of the coefficients
+    double edge_size(std::size_t k) const {
+      return edge_sizes.empty() ? std::abs(on_edges[k].second) : edge_sizes[k];
+    }
+    double unknown_size(std::size_t k) const {
+      return unknown_sizes.empty() ? std::abs(on_unknowns[k].second) : unknown_sizes[k];
+    }
   };
+
+  /// … of coefficients on all forces.
+  Functional functional(const Eigen::VectorXd& on_forces) const {
+    Functional f;
+    for (int k = 0; k < problem_.unknowns(); ++k) {
+      const Edge& edge = problem_.edge(k);
+      const double on_R = on_forces[2 * edge.contact.value()];
+      const double on_T = on_forces[2 * edge.contact.value() + 1];
+      if (on_R == 0 && on_T == 0) continue;
+      f.on_edges.emplace_back(k, on_R * edge.R + on_T * edge.T);
+      f.edge_sizes.push_back(std::abs(on_R * edge.R) + std::abs(on_T * edge.T));
+      if (problem_.is_stick(edge)) {  // its unknowns are R, then T
+        f.on_unknowns.emplace_back(k, edge.sign > 0 ? on_R : on_T);
+        f.unknown_sizes.push_back(std::abs(f.on_unknowns.back().second));
+      } else {
+        f.on_unknowns.push_back(f.on_edges.back());
+        f.unknown_sizes.push_back(f.edge_sizes.back());
+      }
+    }
+    return f;
+  }
 
   Functional functional(Eigen::Index contact, bool tangential, double sign) const {
     Functional f;
@@ -86,29 +116,29 @@ class Encloser {
     }
   }
 
+  StateBound bound_of(const InternalForces& state) const {
+    StateBound bound;
+    bound.u = problem_.unknowns_of(state);
+    bound.shift = equations_.distance_to_solution(bound.u);
+    bound.share = inside_ ? 0 : 1;
+    for_each_slack(bound.u, bound.shift, [&](int k, double slack) {
+      if (slack < 0 && inside_) bound.share = std::max(bound.share, kWiden * -slack / (margin_[k] - slack));
+    });
+    if (!(bound.share <= 1)) bound.share = 1;
+    return bound;
+  }
+
   void bound_states() {
-    for (Eigen::Index row = 0; row < extrema_.states.rows(); ++row) {
-      StateBound bound;
-      bound.u =
-          problem_.unknowns_of(problem_.units.internal(SceneForces(extrema_.states.row(row).transpose())));
-      states_.push_back(std::move(bound));
-    }
     centre_.u = problem_.unknowns_of(problem_.state(polytope_.interior));
     centre_.shift = equations_.distance_to_solution(centre_.u);
-    Eigen::VectorXd margin(problem_.unknowns());
-    inside_ = !states_.empty() && std::isfinite(centre_.shift);
+    margin_.resize(problem_.unknowns());
+    inside_ = extrema_.states.rows() > 0 && std::isfinite(centre_.shift);
     for_each_slack(centre_.u, centre_.shift, [&](int k, double slack) {
-      margin[k] = slack;
+      margin_[k] = slack;
       inside_ = inside_ && slack > 0;
     });
-    for (StateBound& bound : states_) {
-      bound.shift = equations_.distance_to_solution(bound.u);
-      bound.share = inside_ ? 0 : 1;
-      for_each_slack(bound.u, bound.shift, [&](int k, double slack) {
-        if (slack < 0 && inside_) bound.share = std::max(bound.share, kWiden * -slack / (margin[k] - slack));
-      });
-      if (!(bound.share <= 1)) bound.share = 1;
-    }
+    for (Eigen::Index row = 0; row < extrema_.states.rows(); ++row)
+      states_.push_back(bound_of(problem_.units.internal(SceneForces(extrema_.states.row(row).transpose()))));
   }
 
   void sort_bases(const std::vector<OptimalBasis>& optima) {
@@ -149,8 +179,11 @@ class Encloser {
   Eigen::VectorXd multipliers(const Functional& f, int number) const {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
     for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
-    if (number < 0) return y;
-    const Factor& factor = factors_[static_cast<std::size_t>(number)];
+    if (number >= 0) add_reduced_costs(f, factors_[static_cast<std::size_t>(number)], y);
+    return y;
+  }
+
+  void add_reduced_costs(const Functional& f, const Factor& factor, Eigen::VectorXd& y) const {
     const PolytopeBlock& block = polytope_.blocks[factor.block];
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
     for (const auto& [edge, coefficient] : f.on_edges) {
@@ -163,7 +196,6 @@ class Encloser {
       const int edge = block.edges[static_cast<std::size_t>(factor.basis[static_cast<std::size_t>(k)])];
       add_edge(edge, std::max(0.0, -costs[k]), y);
     }
-    return y;
   }
 
   /// Upper bounds of h_k = f_k − (Aᵀ y)_k on edges, where positive.
@@ -171,10 +203,12 @@ class Encloser {
   void for_each_excess(const Functional& f, const Eigen::VectorXd& y, Visit visit) const {
     std::size_t next = 0;
     for (int k = 0; k < equations_.edge_matrix().outerSize(); ++k) {
-      double own = 0;
-      if (next < f.on_edges.size() && f.on_edges[next].first == k) own = f.on_edges[next++].second;
-      double sum = own;
-      double magnitude = std::abs(own);
+      double sum = 0;
+      double magnitude = 0;
+      if (next < f.on_edges.size() && f.on_edges[next].first == k) {
+        sum = f.on_edges[next].second;
+        magnitude = f.edge_size(next++);
+      }
       double plain = 0;
       int terms = 4;
       for (Eigen::SparseMatrix<double>::InnerIterator it(equations_.edge_matrix(), k); it; ++it) {
@@ -250,9 +284,14 @@ class Encloser {
     const double value = value_at(f, state.u);
     const double middle = value_at(f, centre_.u);
     double reach = 0;
-    for (const auto& [unknown, coefficient] : f.on_unknowns) reach += std::abs(coefficient);
-    const double slack =
-        reach * (state.shift + centre_.shift) + 4 * kRoundoff * (std::abs(value) + std::abs(middle));
+    double size = 0;
+    for (std::size_t k = 0; k < f.on_unknowns.size(); ++k) {
+      reach += f.unknown_size(k);
+      const int unknown = f.on_unknowns[k].first;
+      size += f.unknown_size(k) * (std::abs(state.u[unknown]) + std::abs(centre_.u[unknown]));
+    }
+    const double terms = 3 + static_cast<double>(f.on_unknowns.size());
+    const double slack = reach * (state.shift + centre_.shift) + terms * kRoundoff * size;
     return value - kWiden * (slack + state.share * std::abs(value - middle)) - kTiny;
   }
 
@@ -290,24 +329,44 @@ class Encloser {
       inner = from_below(f, state);
       if (basis_of_(i, column) < 0) {
         // Determined: the same bound from the other side holds for every state.
-        Functional opposite = f;
-        for (auto* part : {&opposite.on_unknowns, &opposite.on_edges}) {
-          for (auto& entry : *part) entry.second = -entry.second;
-        }
-        inner = std::max(inner, -from_above(opposite, -y));
+        inner = std::max(inner, -from_above(opposite_of(f), -y));
       }
       enclosures_.sensitivity(i, column) = sensitivity_of(y, row);
     }
     const double unit = problem_.units.internal_in_scene();
-    const auto widened = [&](double bound, double direction) {
-      return std::isinf(bound)
-                 ? bound
-                 : bound * unit + direction * (4 * kRoundoff * std::abs(bound) * unit + kTiny * unit);
-    };
     const double low = sign > 0 ? inner : -outer;
     const double high = sign > 0 ? outer : -inner;
-    enclosures_.lower(i, column) = std::min(stored, widened(low, -1));
-    enclosures_.upper(i, column) = std::max(stored, widened(high, 1));
+    enclosures_.lower(i, column) = std::min(stored, widened(low, -1, unit));
+    enclosures_.upper(i, column) = std::max(stored, widened(high, 1, unit));
+  }
+
+  static Functional opposite_of(Functional f) {
+    for (auto* part : {&f.on_unknowns, &f.on_edges}) {
+      for (auto& entry : *part) entry.second = -entry.second;
+    }
+    return f;
+  }
+
+  SumBounds enclose_sum(const SumAtOptimum& sum) const {
+    const Functional f = functional(sum.coefficients);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
+    for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
+    for (const auto& [block, basis] : sum.bases) {
+      const SlopeView& view = polytope_.blocks[block].view;
+      add_reduced_costs(
+          f, {block, basis, Eigen::PartialPivLU<Eigen::MatrixXd>(view.slope(basis, Eigen::all))}, y);
+    }
+    const double outer = from_above(f, y);
+    double inner = from_below(f, bound_of(sum.state));
+    if (sum.bases.empty()) inner = std::max(inner, -from_above(opposite_of(f), -y));
+    const double unit = problem_.units.internal_in_scene();
+    return {widened(inner, -1, unit), widened(outer, 1, unit)};
+  }
+
+  /// A bound in the scene's units.
+  static double widened(double bound, double direction, double unit) {
+    if (std::isinf(bound)) return bound;
+    return bound * unit + direction * (4 * kRoundoff * std::abs(bound) * unit + kTiny * unit);
   }
 
   const ForcePolytope& polytope_;
@@ -318,7 +377,8 @@ class Encloser {
   EquationBounds equations_;
   std::vector<StateBound> states_;
   StateBound centre_;
-  bool inside_ = false;  ///< the centre is proven to be strictly inside
+  Eigen::VectorXd margin_;  ///< slack of the centre at each edge
+  bool inside_ = false;     ///< the centre is proven to be strictly inside
   Eigen::Array<int, Eigen::Dynamic, 4, Eigen::RowMajor> basis_of_;
   std::vector<Factor> factors_;
   double total_ = kInfinity;  ///< bound of ΣR over F
@@ -327,8 +387,9 @@ class Encloser {
 
 }  // namespace
 
-Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema) {
-  if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema).run();
+Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
+                          std::span<const SumAtOptimum> sums) {
+  if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema).run(sums);
   Enclosures none;
   for (auto* table : {&none.lower, &none.upper, &none.sensitivity})
     table->setConstant(static_cast<Eigen::Index>(polytope.problem.contacts.size()), 4, kNaN);

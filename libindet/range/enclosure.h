@@ -1,10 +1,29 @@
 #pragma once
 
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libindet/lp/feasible_set.h"
+#include "libindet/packing/force.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/outcome.h"
 
 namespace indet {
+
+/// A sum Σ coefficients · (R_1, T_1, …, R_M, T_M) with a state that attains its largest value over F.
+struct SumAtOptimum {
+  Eigen::VectorXd coefficients;                      ///< 2M, stored doubles
+  InternalForces state;                              ///< 2M
+  std::vector<std::pair<std::size_t, Basis>> bases;  ///< block and basis that prove it there; blocks in
+                                                     ///< which the sum is the same everywhere have none
+};
+
+/// Bounds of that largest value, in the scene's units.
+struct SumBounds {
+  double lower = 0, upper = 0;
+};
 
 /// What is known of the values without trust in the search: the third stage of an analysis. Forces are in the
 /// scene's units; NaN where there is no extremal state.
@@ -16,6 +35,7 @@ struct Enclosures {
   /// All that the enclosures rest on is proven: nothing about F is in doubt, some admissible state is known,
   /// and a polytope called bounded is. Where not, no enclosure holds.
   bool proven = false;
+  std::vector<SumBounds> sums;  ///< of the sums that were asked for
 };
 
 /// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
@@ -45,6 +65,8 @@ struct Enclosures {
 ///
 /// Objectives without an entry in `extrema.proofs` are determined: the same in every state. An empty F has
 /// nothing to enclose; `proven` then tells whether its emptiness is beyond doubt.
-Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema);
+/// `sums`: further functionals, of several contacts at once, to be enclosed likewise.
+Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
+                          std::span<const SumAtOptimum> sums = {});
 
 }  // namespace indet

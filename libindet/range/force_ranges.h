@@ -12,6 +12,7 @@
 #include "libindet/range/measures.h"
 #include "libindet/range/outcome.h"
 #include "libindet/range/problem_summary.h"
+#include "libindet/range/reactions.h"
 
 namespace indet {
 
@@ -27,6 +28,7 @@ struct ForceRanges : ProblemSummary, ContactRequest, ExtremalStates, SearchWork,
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   std::map<std::string, double> seconds;  ///< By stage.
+  Reactions reactions;                    ///< Of walls and fixed disks; in files /reactions.
   /// Where asked for (AnalyzeOptions::solver_states); no field of files.
   std::optional<SolverStates> solver_states;
 };

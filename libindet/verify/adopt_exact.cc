@@ -100,6 +100,7 @@ ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const F
   states.write(extrema);
   ForceRanges result = assemble(packing, ranges, ranges, extrema, enclosures);
   result.seconds = ranges.seconds;
+  result.reactions = ranges.reactions;
   return result;
 }
 

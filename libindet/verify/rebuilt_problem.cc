@@ -111,7 +111,12 @@ Eigen::VectorXd RebuiltProblem::normal_of(int half_plane) const {
 }
 
 double RebuiltProblem::optimality_gap(int component, double sign, const std::vector<int>& tight) const {
-  const Eigen::VectorXd gradient = sign * kernel_.row(component).transpose();
+  return optimality_gap(Eigen::VectorXd::Unit(kernel_.rows(), component) * sign, tight);
+}
+
+double RebuiltProblem::optimality_gap(const Eigen::VectorXd& coefficients,
+                                      const std::vector<int>& tight) const {
+  const Eigen::VectorXd gradient = kernel_.transpose() * coefficients;
   if (gradient.size() == 0 || gradient.norm() == 0) return 0;
   Eigen::MatrixXd normals(nullity(), static_cast<Eigen::Index>(tight.size()));
   for (std::size_t i = 0; i < tight.size(); ++i)

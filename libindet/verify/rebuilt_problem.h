@@ -44,6 +44,8 @@ class RebuiltProblem {
   /// with these tight half-planes: the distance of its gradient from the cone of their outward normals, both
   /// within ker c (Farkas). 0 proves optimality.
   double optimality_gap(int component, double sign, const std::vector<int>& tight) const;
+  /// The same for the sum coefficients · (R_1, T_1, …).
+  double optimality_gap(const Eigen::VectorXd& coefficients, const std::vector<int>& tight) const;
 
   /// A virtual motion [N, 3] (x, y, rω) of disks, and of walls [W, 2] (along normal and tangent; or none) as
   /// one column. It proves that the packing cannot stand if the load's power is positive, and the smallest

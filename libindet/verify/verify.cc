@@ -12,6 +12,7 @@
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/estimate_check.h"
+#include "libindet/verify/reactions_check.h"
 #include "libindet/verify/rebuilt_problem.h"
 
 namespace indet {
@@ -31,6 +32,7 @@ class Verifier {
     check_measures();
     check_counts();
     check_hull();
+    check_reactions(packing_, ranges_, problem_, compare_);
     name_the_rest();
     return compare_.result();
   }

@@ -43,7 +43,7 @@ class Samples(unittest.TestCase):
 
     def test_root(self):
         self.assertEqual(self.file.attrs["Conventions"], "H5MD-1.1 indet-1")
-        self.assertEqual(list(self.file.attrs["schema_version"]), [1, 0])
+        self.assertEqual(list(self.file.attrs["schema_version"]), [1, 1])
         self.assertEqual(self.file.attrs["complete"], 1)
         self.assertEqual(list(self.file["h5md"].attrs["version"]), [1, 1])
         self.assertEqual(self.file["h5md/creator"].attrs["name"], "indet")

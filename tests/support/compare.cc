@@ -90,6 +90,18 @@ AssertionResult same_entries(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
 
 namespace {
 
+bool same_reactions(const Reactions& a, const Reactions& b) {
+  const auto same = [](const auto& first, const auto& second) {
+    return first.rows() == second.rows() && first.cols() == second.cols() &&
+           std::equal(reinterpret_cast<const char*>(first.data()),
+                      reinterpret_cast<const char*>(first.data() + first.size()),
+                      reinterpret_cast<const char*>(second.data()));
+  };
+  return same(a.body, b.body) && same(a.component, b.component) && same(a.value, b.value) &&
+         same(a.lower, b.lower) && same(a.upper, b.upper) && same(a.outcome, b.outcome) &&
+         same(a.vertex, b.vertex) && same(a.states, b.states);
+}
+
 bool same_solver_states(const std::optional<SolverStates>& a, const std::optional<SolverStates>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   const auto same = [](const auto& first, const auto& second) {
@@ -116,6 +128,7 @@ AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b) {
   }
   if (!same_solver_states(a.solver_states, b.solver_states))
     return AssertionFailure() << "the solver's states differ";
+  if (!same_reactions(a.reactions, b.reactions)) return AssertionFailure() << "the reactions differ";
   return AssertionSuccess();
 }
 

@@ -113,6 +113,30 @@ TEST(VerifyRanges, ChecksTheMotionOfLoadedWalls) {
   EXPECT_FALSE(verify_ranges(packing, wrong).passed());
 }
 
+TEST(VerifyRanges, ChecksReactions) {
+  const Packing packing = zoo::disk_on_two_fixed(0.5, 0.3, 1, 2);
+  const ForceRanges good = analyze(packing);
+  ASSERT_EQ(good.reactions.count(), 6);
+  EXPECT_TRUE(verify_ranges(packing, good).passed()) << first_message(verify_ranges(packing, good));
+  const auto refuses = [&](auto change) {
+    ForceRanges wrong = good;
+    change(wrong.reactions);
+    return !verify_ranges(packing, wrong).passed();
+  };
+  EXPECT_TRUE(refuses([](Reactions& r) { r.value(0, 1) += 1e-6; }));
+  EXPECT_TRUE(refuses([](Reactions& r) { std::swap(r.vertex(0, 0), r.vertex(0, 1)); }));
+  EXPECT_TRUE(refuses([](Reactions& r) { r.states(0, 0) *= 1.001; }));
+  EXPECT_TRUE(refuses([](Reactions& r) { r.component[0] = 1; }));
+  EXPECT_TRUE(refuses([](Reactions& r) { r.body[0] = 2; }));
+  EXPECT_TRUE(refuses([](Reactions& r) { r.lower(0, 0) = 1; }));
+  EXPECT_TRUE(refuses([](Reactions& r) { r.outcome(0, 0) = Outcome::kFailed; }));
+  // A state that is admissible, but not where the sum is largest.
+  EXPECT_TRUE(refuses([](Reactions& r) {
+    r.vertex(0, 1) = r.vertex(0, 0);
+    r.value(0, 1) = r.lower(0, 1) = r.upper(0, 1) = r.value(0, 0);
+  }));
+}
+
 TEST(VerifyRanges, SaysHowManyObjectivesFailedOrAreImprecise) {
   const Packing packing = zoo::column(3, 0.3, 0.5);
   ForceRanges ranges = analyze(packing);
