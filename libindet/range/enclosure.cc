@@ -63,7 +63,6 @@ class Encloser {
     }
   };
 
-  /// … of coefficients on all forces.
   Functional functional(const Eigen::VectorXd& on_forces) const {
     Functional f;
     for (int k = 0; k < problem_.unknowns(); ++k) {
