@@ -134,7 +134,7 @@ class Levers(program.ProgramTest):
     def test_a_packing_without_them_is_of_version_1(self):
         self.packing(program.groove())
         with h5py.File(self.folder / "p.h5") as file:
-            self.assertEqual(list(file.attrs["schema_version"]), [1, 0])
+            self.assertEqual(list(file.attrs["schema_version"]), [1, 1])
             self.assertNotIn("contacts/lever_a", file)
             self.assertNotIn("particles/disks/fixed", file)
 
@@ -174,6 +174,81 @@ class Levers(program.ProgramTest):
                 np.testing.assert_array_equal(file["simulation/lever_a"][:], levers)
 
 
+class Reactions(program.ProgramTest):
+    def of(self, file):
+        """{(body code, component): (minimum, maximum)} of a file of ranges, and that their bounds hold them."""
+        with h5py.File(self.folder / file) as content:
+            group = content["reactions"]
+            value, lower, upper = (group[name][:] for name in ("value", "lower", "upper"))
+            self.assertTrue((lower <= value).all() and (value <= upper).all())
+            finite = np.isfinite(value) & np.isfinite(lower) & np.isfinite(upper)
+            self.assertLess(np.max((upper - lower)[finite], initial=0), 1e-8)
+            self.assertEqual(set(group["outcome"][:].ravel()) - {0, 1}, set())
+            return {(int(b), int(c)): tuple(v) for b, c, v in zip(group["body"][:], group["component"][:], value)}
+
+    def test_a_loaded_wall_bears_its_load_and_the_floor_the_weight_too(self):
+        self.packing(between_plates(2.5, 3, mu=0.3))
+        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        found = self.of("r.h5")
+        np.testing.assert_allclose(found[-1, 0], (5.5, 5.5), rtol=1e-13)
+        np.testing.assert_allclose(found[-2, 0], (2.5, 2.5), rtol=1e-13)
+        np.testing.assert_allclose(found[-1, 1], (0, 0), atol=1e-13)
+        self.run_indet("verify", "r.h5")
+
+    def test_of_a_groove_are_those_of_its_contacts(self):
+        """Two fixed disks bear −(R n̂ + T t̂) of one contact each, n̂ = (s, c), t̂ = (c, −s) at the left one. Torques take
+        T_0 = −T_1, so that 2 R c − 2 T s = 1: half of the weight on each."""
+        self.packing(on_two_fixed())
+        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        found = self.of("r.h5")
+        mu, s, c = 0.3, 0.5, math.sqrt(0.75)
+        T_min, T_max = -mu * 0.5 / (c + mu * s), mu * 0.5 / (c - mu * s)
+        np.testing.assert_allclose(found[1, 1], (-0.5, -0.5), rtol=1e-12)
+        x = sorted(-((0.5 + T * s) / c * s + T * c) for T in (T_min, T_max))
+        np.testing.assert_allclose(found[1, 0], x, rtol=1e-12)
+        np.testing.assert_allclose(found[1, 2], (2 * T_min, 2 * T_max), rtol=1e-12)  # its radius is 2
+        self.run_indet("verify", "r.h5")
+
+    def test_of_a_box_contain_those_of_all_states_that_are_stored(self):
+        self.run_indet("simulate", "--protocol", "cd1", "--disks", "12", "--seed", "3", "-o", "p.h5")
+        shown = json.loads(self.run_indet("--json", "analyze", "p.h5", "-o", "r.h5").stdout)["reactions"]
+        found = self.of("r.h5")
+        self.assertGreaterEqual(len(found), 4)
+        with h5py.File(self.folder / "r.h5") as file:
+            names = [name.decode() for name in file["walls/name"][:]]
+            states, b = file["extremal/states"][:], file["contacts/body_b"][:]
+            for (body, component), (low, high) in found.items():
+                sums = states[:, component::2][:, b == body].sum(axis=1)
+                self.assertLessEqual(low, sums.min() + 1e-9)
+                self.assertGreaterEqual(high, sums.max() - 1e-9)
+        for entry in shown:
+            body = -1 - names.index(entry["name"])
+            self.assertEqual((entry["minimum"], entry["maximum"]), found[body, int(entry["component"] == "T")])
+        self.assertIn("reactions (mg)", self.run_indet("inspect", "r.h5").stdout)
+        self.run_indet("verify", "r.h5")
+
+    def test_grow_without_limit_where_forces_do(self):
+        self.packing(program.groove(math.radians(80), 0.3))
+        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        found = self.of("r.h5")
+        self.assertEqual(found[-1, 0][1], math.inf)
+        self.assertTrue(math.isfinite(found[-1, 0][0]))
+        self.run_indet("verify", "r.h5")
+
+    def test_verify_notices_each_changed_number(self):
+        self.packing(on_two_fixed())
+        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        for name, row, value in (("value", (0, 0), -0.3), ("value", (0, 1), -0.1), ("body", 0, 2), ("component", 0, 1),
+                                 ("vertex", (0, 0), -1), ("states", (0, 0), 9.0), ("lower", (0, 0), 0.5),
+                                 ("upper", (0, 1), -0.6), ("outcome", (0, 0), 3)):
+            shutil.copy(self.folder / "r.h5", self.folder / "changed.h5")
+            with h5py.File(self.folder / "changed.h5", "r+") as file:
+                file["reactions"][name][row] = value
+            with self.subTest(name=name):
+                shown = json.loads(self.run_indet("--json", "verify", "changed.h5", status=5).stdout)
+                self.assertGreater(shown["contradictions"], 0)
+
+
 class OldFiles(program.ProgramTest):
     def test_a_file_of_version_1_is_read_with_the_same_results(self):
         old = f"{DATA}/old/version-1.0.h5"
@@ -182,7 +257,7 @@ class OldFiles(program.ProgramTest):
         self.run_indet("analyze", old, "-o", "r.h5")
         with h5py.File(old) as before, h5py.File(self.folder / "r.h5") as after:
             self.assertEqual(list(before.attrs["schema_version"]), [1, 0])
-            self.assertEqual(list(after.attrs["schema_version"]), [1, 0])
+            self.assertEqual(list(after.attrs["schema_version"]), [1, 1])
             for group in ("particles", "walls", "contacts"):
                 before[group].visititems(lambda name, thing, group=group: np.testing.assert_array_equal(
                     thing[()], after[group][name][()]) if isinstance(thing, h5py.Dataset) else None)
