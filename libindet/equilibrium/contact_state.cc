@@ -40,8 +40,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Pa
     if (!wall.is_wall()) continue;
     residual.row(wall.wall_id().value()) -= forces.value().segment<2>(2 * i).transpose() / unit;
   }
-  for (double& value : residual.reshaped()) value = std::isnan(value) ? 0 : value;
-  return residual;
+  return residual.unaryExpr([](double value) { return std::isnan(value) ? 0 : value; });
 }
 
 double largest_imbalance(const Packing& packing, const SceneForces& forces) {
