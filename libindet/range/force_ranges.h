@@ -28,9 +28,9 @@ struct ForceRanges : ProblemSummary, ContactRequest, ExtremalStates, SearchWork,
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   std::map<std::string, double> seconds;  ///< By stage.
-  Reactions reactions;                    ///< Of walls and fixed disks; in files /reactions.
   /// Where asked for (AnalyzeOptions::solver_states); no field of files.
   std::optional<SolverStates> solver_states;
+  Reactions reactions = {};  ///< Of walls and fixed disks; in files /reactions.
 };
 
 /// Certifies and measures what was found, and puts all of it together.
