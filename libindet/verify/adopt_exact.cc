@@ -74,8 +74,8 @@ ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const F
     return result;
   }
   Extrema extrema = stored_extrema(ranges);
-  Enclosures enclosures{ranges.lower, ranges.upper, ranges.sensitivity,
-                        check.passed() && check.rank == ranges.rank};
+  Enclosures enclosures{
+      ranges.lower, ranges.upper, ranges.sensitivity, check.passed() && check.rank == ranges.rank, {}};
   States states(check, ranges);
   for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
