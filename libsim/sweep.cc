@@ -21,10 +21,10 @@ inline Four all(double value) { return {both(value), both(value)}; }
 inline const Four& load(const FourLanes& lanes) { return lanes; }
 inline void store(FourLanes& lanes, const Four& value) { lanes = value; }
 inline Four larger(const Four& a, const Four& b) {
-  return {sim::larger(a.low, b.low), sim::larger(a.high, b.high)};
+  return {indet::larger(a.low, b.low), indet::larger(a.high, b.high)};
 }
 inline Four smaller(const Four& a, const Four& b) {
-  return {sim::smaller(a.low, b.low), sim::smaller(a.high, b.high)};
+  return {indet::smaller(a.low, b.low), indet::smaller(a.high, b.high)};
 }
 inline double largest(const Four& a) { return std::max({a[0], a[1], a[2], a[3]}); }
 

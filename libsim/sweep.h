@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "libsim/lanes.h"
+#include "libindet/base/lanes.h"
 
 namespace indet::sim {
 
