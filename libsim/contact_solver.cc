@@ -23,6 +23,12 @@ bool any_offset(std::span<const SolverContact> contacts) {
   });
 }
 
+/// Levers that are not the radius.
+bool any_arm(std::span<const SolverContact> contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const SolverContact& c) { return c.arm_a != 1 || c.arm_b != 1; });
+}
+
 bool moves(const SolverContact& c) { return c.inverse_mass_b > 0 || c.inverse_spin_b > 0; }
 
 }  // namespace
@@ -30,7 +36,7 @@ bool moves(const SolverContact& c) { return c.inverse_mass_b > 0 || c.inverse_sp
 void SolverContact::prepare() {
   const double w_n = inverse_mass_a + inverse_mass_b;
   scale_n = 1 / (w_n + compliance);
-  scale_t = 1 / (w_n + inverse_spin_a + inverse_spin_b + compliance);
+  scale_t = 1 / (w_n + arm_a * arm_a * inverse_spin_a + arm_b * arm_b * inverse_spin_b + compliance);
 }
 
 void apply_impulses(std::span<const SolverContact> contacts, std::span<SolverBody> bodies) {
@@ -39,8 +45,8 @@ void apply_impulses(std::span<const SolverContact> contacts, std::span<SolverBod
     SolverBody& b = bodies[c.b];
     const double px = c.nx * c.p_n + c.ny * c.p_t;
     const double py = c.ny * c.p_n - c.nx * c.p_t;
-    a.s += c.inverse_spin_a * c.p_t;
-    b.s += c.inverse_spin_b * c.p_t;
+    a.s += c.arm_a * c.inverse_spin_a * c.p_t;
+    b.s += c.arm_b * c.inverse_spin_b * c.p_t;
     a.vx += c.inverse_mass_a * px;
     a.vy += c.inverse_mass_a * py;
     b.vx -= c.inverse_mass_b * px;
@@ -87,8 +93,10 @@ void ContactSolver::load(std::span<const SolverContact> contacts, std::span<cons
       group.mu.set(lane, c.mu);
       group.inverse_mass_a.set(lane, c.inverse_mass_a);
       group.inverse_mass_b.set(lane, c.inverse_mass_b);
-      group.inverse_spin_a.set(lane, c.inverse_spin_a);
-      group.inverse_spin_b.set(lane, c.inverse_spin_b);
+      group.turn_a.set(lane, c.arm_a * c.inverse_spin_a);
+      group.turn_b.set(lane, c.arm_b * c.inverse_spin_b);
+      group.arm_a.set(lane, c.arm_a);
+      group.arm_b.set(lane, c.arm_b);
     }
   }
 }
@@ -109,7 +117,8 @@ SweepReport ContactSolver::solve(std::span<SolverContact> contacts, std::span<So
                                  const SweepLimits& limits) {
   if (contacts.empty()) return {.converged = true};
   load(contacts, bodies);
-  SweepParts parts{.friction = any_friction(contacts), .offset = any_offset(contacts)};
+  SweepParts parts{
+      .friction = any_friction(contacts), .arms = any_arm(contacts), .offset = any_offset(contacts)};
   SweepReport report;
   while (report.sweeps < limits.max_sweeps && !report.converged) {
     ++report.sweeps;

@@ -29,7 +29,7 @@ inline Four smaller(const Four& a, const Four& b) {
 inline double largest(const Four& a) { return std::max({a[0], a[1], a[2], a[3]}); }
 
 /// Velocity of a less that of b, and the sum of their surface speeds.
-template <bool kFriction>
+template <bool kFriction, bool kArms>
 struct Motion {
   Four x, y, turn;
   Motion(const VelocityRow* rows, const ContactGroup& c) {
@@ -38,8 +38,10 @@ struct Motion {
     x = {first_of(u0, u1), first_of(u2, u3)};
     y = {second_of(u0, u1), second_of(u2, u3)};
     if constexpr (!kFriction) return;
-    const auto sum = [&](std::size_t i) { return rows[c.a[i]].s + rows[c.b[i]].s; };
-    turn = {first_of(sum(0), sum(1)), first_of(sum(2), sum(3))};
+    const auto turns = [rows](const std::array<int, 4>& body) -> Four {
+      return {first_of(rows[body[0]].s, rows[body[1]].s), first_of(rows[body[2]].s, rows[body[3]].s)};
+    };
+    turn = kArms ? c.arm_a * turns(c.a) + c.arm_b * turns(c.b) : turns(c.a) + turns(c.b);
   }
 };
 
@@ -76,7 +78,7 @@ inline Four row(const VelocityRow& r) { return _mm256_load_pd(reinterpret_cast<c
 inline Four low_halves(Four a, Four b) { return _mm256_insertf128_pd(a, _mm256_castpd256_pd128(b), 1); }
 inline Four high_halves(Four a, Four b) { return _mm256_permute2f128_pd(a, b, 0x31); }
 
-template <bool kFriction>
+template <bool kFriction, bool kArms>
 struct Motion {
   Four x, y, turn;
   Motion(const VelocityRow* rows, const ContactGroup& c) {
@@ -86,7 +88,12 @@ struct Motion {
     x = low_halves(_mm256_unpacklo_pd(u0, u1), _mm256_unpacklo_pd(u2, u3));
     y = low_halves(_mm256_unpackhi_pd(u0, u1), _mm256_unpackhi_pd(u2, u3));
     if constexpr (!kFriction) return;
-    turn = high_halves(_mm256_unpacklo_pd(a0 + b0, a1 + b1), _mm256_unpacklo_pd(a2 + b2, a3 + b3));
+    if constexpr (kArms) {
+      turn = load(c.arm_a) * high_halves(_mm256_unpacklo_pd(a0, a1), _mm256_unpacklo_pd(a2, a3)) +
+             load(c.arm_b) * high_halves(_mm256_unpacklo_pd(b0, b1), _mm256_unpacklo_pd(b2, b3));
+    } else {
+      turn = high_halves(_mm256_unpacklo_pd(a0 + b0, a1 + b1), _mm256_unpacklo_pd(a2 + b2, a3 + b3));
+    }
   }
 };
 

@@ -26,7 +26,8 @@ struct ContactGroup {
   FourLanes scale_n, scale_t;
   FourLanes mu;
   FourLanes inverse_mass_a, inverse_mass_b;
-  FourLanes inverse_spin_a, inverse_spin_b;
+  FourLanes turn_a, turn_b;  ///< α r²/I
+  FourLanes arm_a, arm_b;    ///< α
 };
 
 /// Velocity x, y and surface speed of a body; the last one is not used.
@@ -38,6 +39,7 @@ struct alignas(32) VelocityRow {
 /// What a sweep can leave out, and whether it measures.
 struct SweepParts {
   bool friction = true;  ///< False: no contact has friction.
+  bool arms = true;      ///< False: all arms α are 1.
   bool offset = true;    ///< False: no contact has compliance or bias.
   bool measure = true;
 };

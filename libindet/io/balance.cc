@@ -23,7 +23,7 @@ BalanceReport report_balance(const ImportedPacking& imported) {
     if (!contact.b.is_wall()) held[static_cast<std::size_t>(contact.b.disk_id().value())] = true;
   }
   for (std::size_t i = held.size(); i-- > 0;) {
-    if (held[i]) continue;
+    if (held[i] || packing.disks[i].fixed) continue;
     ++report.loose_disks;
     report.first_loose = DiskId(static_cast<std::int64_t>(i));
   }

@@ -19,7 +19,7 @@ struct BalanceReport {
   int sliding = 0;             ///< Non-transmitting contacts count twice.
   int non_transmitting = 0;    ///< R and |T| below ε.
   int duplicates = 0;          ///< Contacts given twice with equal forces, and taken once.
-  int loose_disks = 0;         ///< Disks without contacts.
+  int loose_disks = 0;         ///< Free disks without contacts.
   DiskId first_loose;          ///< The first of them.
 };
 

@@ -7,11 +7,16 @@
 
 namespace indet {
 
+int Packing::free_disk_count() const {
+  return static_cast<int>(std::count_if(disks.begin(), disks.end(), [](const Disk& d) { return !d.fixed; }));
+}
+
 double Packing::force_unit() const {
   if (named_force_unit > 0) return named_force_unit;
-  if (disks.empty()) return 1;
+  const int count = free_disk_count();
+  if (count == 0) return 1;
   double mass = 0;
-  for (const Disk& disk : disks) mass += disk.mass / static_cast<double>(disks.size());
+  for (const Disk& disk : disks) mass += disk.fixed ? 0 : disk.mass / count;
   const double weight = gravity.stableNorm() * mass;
   if (!(weight > 0)) {
     throw InputError(
@@ -41,7 +46,26 @@ double Packing::max_radius() const {
 
 Vector3 Packing::wrench(DiskId disk) const {
   const Disk& d = (*this)[disk];
+  if (d.fixed) return Vector3::Zero();
   return {d.mass * gravity.x() + d.load.x(), d.mass * gravity.y() + d.load.y(), d.load.z()};
+}
+
+double Packing::lever_a(const Contact& c) const {
+  return std::isnan(c.lever_a) ? (*this)[c.a].radius : c.lever_a;
+}
+
+double Packing::lever_b(const Contact& c) const {
+  if (c.b.is_wall()) return 0;
+  return std::isnan(c.lever_b) ? (*this)[c.b.disk_id()].radius : c.lever_b;
+}
+
+bool Packing::has_levers() const {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const Contact& c) { return !std::isnan(c.lever_a) || !std::isnan(c.lever_b); });
+}
+
+Vector2 Packing::contact_point(const Contact& contact) const {
+  return (*this)[contact.a].position - lever_a(contact) * contact.normal;
 }
 
 SceneForces Packing::simulated_forces() const {

@@ -18,11 +18,13 @@ using Vector3 = Eigen::Vector3d;
 /// simulators and importers return, and that the analysis starts from.
 ///
 /// Contact α joins disk a and body b (a disk or a wall). n̂ points from b to a [9]; t̂ = n̂ × ẑ = (n_y, −n_x)
-/// [10]. The force on a is R n̂ + T t̂, on b the opposite [11]; the lever arm is the disk's radius, so the
-/// torque on every disk that takes part is + r T [15]. (Numbers in brackets: equations of McNamara and
-/// Herrmann.)
+/// [10]. The force on a is R n̂ + T t̂, on b the opposite [11]. The torque of T on a is l_a T, on b l_b T (both
+/// counter-clockwise). The lever arm l is the disk's radius [15] unless the contact says otherwise: soft
+/// disks overlap, and many codes put the force at the middle of the overlap. (Numbers in brackets: equations
+/// of McNamara and Herrmann.)
 
-/// One rigid disk.
+/// One rigid disk. A disk is free, or fixed (glued, frozen): a fixed disk has no equation, its weight and its
+/// load act on nothing, and neither counts in N nor in mg.
 struct Disk {
   std::int32_t id = 0;  ///< The name that the user gave it; not an index.
   Vector2 position{0, 0};
@@ -33,6 +35,7 @@ struct Disk {
   Vector2 velocity{0, 0};
   double angular_velocity = 0;
   Vector3 load{0, 0, 0};  ///< External force x, y and torque, beside gravity.
+  bool fixed = false;
 };
 
 /// A fixed half-plane: the domain is {x : normal · (x − point) ≥ 0}.
@@ -71,6 +74,9 @@ struct Contact {
   double mu = 0;         ///< Coulomb friction coefficient of this contact, ≥ 0.
   double R = std::numeric_limits<double>::quiet_NaN();  ///< Normal force as simulated; NaN if unknown.
   double T = std::numeric_limits<double>::quiet_NaN();  ///< Tangential force as simulated; NaN if unknown.
+  /// Arm of the torque of T on a and on b; NaN: the radius. A wall has none. Packing::lever_a, lever_b.
+  double lever_a = std::numeric_limits<double>::quiet_NaN();
+  double lever_b = std::numeric_limits<double>::quiet_NaN();
 
   /// t̂ = n̂ × ẑ = (n_y, −n_x) [10].
   Vector2 tangent() const { return {normal.y(), -normal.x()}; }
@@ -94,12 +100,15 @@ struct Packing {
   Origin origin;
 
   int disk_count() const { return static_cast<int>(disks.size()); }
+  int free_disk_count() const;  ///< N: disks that are not fixed.
+  /// 2M − 3N, the least nullity of c.
+  int expected_dimension() const { return 2 * contact_count() - 3 * free_disk_count(); }
   int wall_count() const { return static_cast<int>(walls.size()); }
   int contact_count() const { return static_cast<int>(contacts.size()); }
 
-  /// The unit in which forces are computed and printed: the named one, else the mean weight |g| Σm/N ("mg" in
-  /// the paper). 1 for a packing without disks. Throws InputError if there is neither gravity nor a named
-  /// unit.
+  /// The unit in which forces are computed and printed: the named one, else the mean weight |g| Σm/N of
+  /// the free disks ("mg" in the paper). 1 for a packing without free disks. Throws InputError if there is
+  /// neither gravity nor a named unit.
   double force_unit() const;
 
   /// The unit in which the equilibrium problem is solved and residuals are judged. force_unit(), unless that
@@ -114,8 +123,21 @@ struct Packing {
   /// Radius of the largest disk, the unit of length (1 for a packing without disks).
   double max_radius() const;
 
-  /// External wrench on disk i: m g plus its load (force x, force y, torque).
+  /// External wrench on disk i: m g plus its load (force x, force y, torque). 0 for a fixed disk.
   Vector3 wrench(DiskId disk) const;
+
+  /// True for a free disk. A contact between two bodies without equations has no part in the problem.
+  bool has_equations(DiskId disk) const { return !(*this)[disk].fixed; }
+  bool has_equations(Body body) const { return !body.is_wall() && has_equations(body.disk_id()); }
+
+  /// The arm of the torque of T on a; on b, 0 if b is a wall.
+  double lever_a(ContactId contact) const { return lever_a((*this)[contact]); }
+  double lever_b(ContactId contact) const { return lever_b((*this)[contact]); }
+  double lever_a(const Contact& contact) const;  ///< Of one of this packing's disks.
+  double lever_b(const Contact& contact) const;
+  bool has_levers() const;  ///< Some contact has a lever of its own.
+  /// Where the force of a contact acts: x_a − l_a n̂.
+  Vector2 contact_point(const Contact& contact) const;
 
   /// The simulated forces, 2M; NaN where unknown.
   SceneForces simulated_forces() const;

@@ -26,6 +26,12 @@ Reason not_positive(const char* name, double value) {
   return fmt::format("{} must be positive, but is {}", name, value);
 }
 
+Reason negative(const char* name, double value) {
+  if (auto reason = not_finite(name, value)) return reason;
+  if (value >= 0) return {};
+  return fmt::format("{} must not be negative, but is {}", name, value);
+}
+
 /// The first of several checks that fails.
 template <class... Checks>
 Reason first_of(Checks&&... checks) {
@@ -42,10 +48,11 @@ Reason not_unit(const Vector2& normal) {
 }
 
 Reason disk_defect(const Disk& disk) {
+  const auto inertial = disk.fixed ? negative : not_positive;
   return first_of(
       [&] { return not_finite("x", disk.position.x()); }, [&] { return not_finite("y", disk.position.y()); },
-      [&] { return not_positive("radius", disk.radius); }, [&] { return not_positive("mass", disk.mass); },
-      [&] { return not_positive("inertia", disk.inertia); }, [&] { return not_finite("angle", disk.angle); },
+      [&] { return not_positive("radius", disk.radius); }, [&] { return inertial("mass", disk.mass); },
+      [&] { return inertial("inertia", disk.inertia); }, [&] { return not_finite("angle", disk.angle); },
       [&] { return not_finite("velocity", disk.velocity.sum()); },
       [&] { return not_finite("angular velocity", disk.angular_velocity); },
       [&] { return not_finite("load", disk.load.sum()); });
@@ -74,7 +81,28 @@ Reason index_defect(const Packing& packing, const Contact& contact) {
   if (!contact.b.is_wall() && contact.b.disk_id() == contact.a) {
     return fmt::format("disk {} cannot touch itself", contact.a.value());
   }
+  if (!packing.has_equations(contact.a) && !packing.has_equations(contact.b)) {
+    return fmt::format("disk {} is fixed, and so is body b: nothing has to balance their forces",
+                       packing[contact.a].id);
+  }
   return {};
+}
+
+/// `lever` is NaN (the radius), or in (0, 2r]: a longer one does not belong to this disk.
+Reason lever_defect(const char* name, double lever, double radius) {
+  if (std::isnan(lever)) return {};
+  if (auto reason = not_positive(name, lever)) return reason;
+  if (lever <= 2 * radius) return {};
+  return fmt::format("{} is {}, more than the diameter {} of the disk", name, lever, 2 * radius);
+}
+
+Reason levers_defect(const Packing& packing, const Contact& contact) {
+  if (auto reason = lever_defect("lever_a", contact.lever_a, packing[contact.a].radius)) return reason;
+  if (!contact.b.is_wall()) {
+    return lever_defect("lever_b", contact.lever_b, packing[contact.b.disk_id()].radius);
+  }
+  if (std::isnan(contact.lever_b)) return {};
+  return "body b is a wall, which has no lever, so lever_b must be empty";
 }
 
 Reason normal_defect(const Packing& packing, const Contact& contact) {
@@ -93,14 +121,10 @@ Reason normal_defect(const Packing& packing, const Contact& contact) {
 
 Reason contact_defect(const Packing& packing, const Contact& contact) {
   return first_of(
-      [&] { return index_defect(packing, contact); }, [&] { return not_finite("mu", contact.mu); },
-      [&]() -> Reason {
-        if (contact.mu >= 0) return {};
-        return fmt::format("mu must not be negative, but is {}", contact.mu);
-      },
+      [&] { return index_defect(packing, contact); }, [&] { return negative("mu", contact.mu); },
       [&] { return not_finite("nx", contact.normal.x()); },
       [&] { return not_finite("ny", contact.normal.y()); }, [&] { return not_finite("gap", contact.gap); },
-      [&] { return normal_defect(packing, contact); },
+      [&] { return normal_defect(packing, contact); }, [&] { return levers_defect(packing, contact); },
       [&]() -> Reason {  // NaN means "unknown"
         if (!std::isinf(contact.R) && !std::isinf(contact.T)) return {};
         return "R and T must be finite or unknown";

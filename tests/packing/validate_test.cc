@@ -106,7 +106,21 @@ INSTANTIATE_TEST_SUITE_P(
                    },
                    PackingPart::kScene, -1, "unit of force"},
         BadPacking{"InfiniteForce", [](Packing& p) { p.contacts[0].R = kInf; }, PackingPart::kContact, 0,
-                   "finite or unknown"}),
+                   "finite or unknown"},
+        BadPacking{"NoLever", [](Packing& p) { p.contacts[2].lever_b = 0; }, PackingPart::kContact, 2,
+                   "lever_b must be positive"},
+        BadPacking{"LongLever", [](Packing& p) { p.contacts[0].lever_a = 2.5; }, PackingPart::kContact, 0,
+                   "more than the diameter 2"},
+        BadPacking{"LeverOfAWall", [](Packing& p) { p.contacts[0].lever_b = 1; }, PackingPart::kContact, 0,
+                   "a wall, which has no lever"},
+        BadPacking{"FixedOnAWall", [](Packing& p) { p.disks[1].fixed = true; }, PackingPart::kContact, 1,
+                   "nothing has to balance"},
+        BadPacking{"FixedOfNegativeMass",
+                   [](Packing& p) {
+                     p.disks[0].fixed = true;
+                     p.disks[0].mass = -1;
+                   },
+                   PackingPart::kDisk, 0, "mass must not be negative"}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(Packing, ForceUnitIsTheMeanWeight) {
@@ -116,6 +130,37 @@ TEST(Packing, ForceUnitIsTheMeanWeight) {
   EXPECT_DOUBLE_EQ(packing.force_unit(), 2);
   packing.named_force_unit = 5;
   EXPECT_DOUBLE_EQ(packing.force_unit(), 5);
+}
+
+TEST(Validate, AFixedDiskNeedsNoMass) {
+  Packing packing = two_disks();
+  packing.disks[0].fixed = true;
+  packing.disks[0].mass = packing.disks[0].inertia = 0;
+  packing.contacts.erase(packing.contacts.begin());
+  EXPECT_FALSE(find_defect(packing).has_value());
+}
+
+TEST(Packing, FixedDisksHaveNoWeight) {
+  Packing packing = two_disks();
+  packing.disks[0].fixed = true;
+  packing.disks[0].mass = 5;
+  packing.disks[0].load = {1, 2, 3};
+  EXPECT_EQ(packing.free_disk_count(), 1);
+  EXPECT_EQ(packing.force_unit(), 1);
+  EXPECT_EQ(packing.wrench(DiskId(0)), Vector3(0, 0, 0));
+  EXPECT_EQ(packing.wrench(DiskId(1)), Vector3(0, -1, 0));
+}
+
+TEST(Packing, TheLeverIsTheRadiusUnlessGiven) {
+  Packing packing = two_disks();
+  packing.disks[0].radius = 0.75;
+  EXPECT_EQ(packing.lever_a(ContactId(2)), 1);
+  EXPECT_EQ(packing.lever_b(ContactId(2)), 0.75);
+  EXPECT_EQ(packing.lever_b(ContactId(1)), 0);
+  packing.contacts[2].lever_a = 0.9;
+  packing.contacts[2].lever_b = 0.7;
+  EXPECT_EQ(packing.lever_a(ContactId(2)), 0.9);
+  EXPECT_EQ(packing.lever_b(ContactId(2)), 0.7);
 }
 
 TEST(Packing, GapIsNegativeWhereDisksOverlap) {

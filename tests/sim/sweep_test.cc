@@ -34,8 +34,10 @@ Scene random_scene(std::uint64_t seed, SweepParts parts) {
       c.a[lane] = bodies[2 * lane];
       c.b[lane] = bodies[2 * lane + 1];
       for (FourLanes* member : {&c.nx, &c.ny, &c.p_n, &c.p_t, &c.scale_n, &c.scale_t, &c.inverse_mass_a,
-                                &c.inverse_mass_b, &c.inverse_spin_a, &c.inverse_spin_b})
+                                &c.inverse_mass_b, &c.turn_a, &c.turn_b})
         member->set(lane, random.uniform(-1, 1));
+      for (FourLanes* member : {&c.arm_a, &c.arm_b})
+        member->set(lane, parts.arms ? random.uniform(0.9, 1) : 1);
       c.mu.set(lane, parts.friction ? random.uniform(0, 1) : 0);
       if (!parts.friction) c.p_t.set(lane, 0);
       if (!parts.offset) continue;
@@ -57,8 +59,8 @@ double plain_sweep(Scene& scene) {
       const double ux = a.v[0] - b.v[0];
       const double uy = a.v[1] - b.v[1];
       const double u_n = c.nx[k] * ux + c.ny[k] * uy + c.compliance[k] * c.p_n[k] + c.bias_n[k];
-      const double u_t =
-          c.ny[k] * ux - c.nx[k] * uy + (a.s[0] + b.s[0]) + c.compliance[k] * c.p_t[k] + c.bias_t[k];
+      const double u_t = c.ny[k] * ux - c.nx[k] * uy + (c.arm_a[k] * a.s[0] + c.arm_b[k] * b.s[0]) +
+                         c.compliance[k] * c.p_t[k] + c.bias_t[k];
       const double p_n = std::max(c.p_n[k] - u_n * c.scale_n[k], 0.0);
       const double limit = c.mu[k] * p_n;
       const double p_t = std::min(std::max(c.p_t[k] - u_t * c.scale_t[k], -limit), limit);
@@ -71,8 +73,8 @@ double plain_sweep(Scene& scene) {
       const double py = c.ny[k] * d_n - c.nx[k] * d_t;
       a.v += Lanes{c.inverse_mass_a[k] * px, c.inverse_mass_a[k] * py};
       b.v -= Lanes{c.inverse_mass_b[k] * px, c.inverse_mass_b[k] * py};
-      a.s[0] += c.inverse_spin_a[k] * d_t;
-      b.s[0] += c.inverse_spin_b[k] * d_t;
+      a.s[0] += c.turn_a[k] * d_t;
+      b.s[0] += c.turn_b[k] * d_t;
     }
   }
   return change;
@@ -92,24 +94,31 @@ void expect_same_bits(const Scene& first, const Scene& second) {
   }
 }
 
+/// All that a sweep can leave out or do.
+std::vector<SweepParts> all_parts() {
+  std::vector<SweepParts> all;
+  for (int bits = 0; bits < 16; ++bits) {
+    all.push_back({.friction = (bits & 1) != 0,
+                   .arms = (bits & 2) != 0,
+                   .offset = (bits & 4) != 0,
+                   .measure = (bits & 8) != 0});
+  }
+  return all;
+}
+
 TEST(Sweep, IsThatOfPlainDoublesWhateverTheRegisters) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    for (const bool friction : {false, true}) {
-      for (const bool offset : {false, true}) {
-        for (const bool measure : {false, true}) {
-          const SweepParts parts{.friction = friction, .offset = offset, .measure = measure};
-          Scene plain = random_scene(seed, parts);
-          Scene pairs = plain;
-          Scene widest = plain;
-          for (int sweeps = 0; sweeps < 3; ++sweeps) {
-            const double change = plain_sweep(plain);
-            EXPECT_EQ(sweep_in_pairs(parts, pairs.groups, pairs.rows), measure ? change : 0);
-            EXPECT_EQ(sweep(parts, widest.groups, widest.rows), measure ? change : 0);
-          }
-          expect_same_bits(plain, pairs);
-          expect_same_bits(plain, widest);
-        }
+    for (const SweepParts& parts : all_parts()) {
+      Scene plain = random_scene(seed, parts);
+      Scene pairs = plain;
+      Scene widest = plain;
+      for (int sweeps = 0; sweeps < 3; ++sweeps) {
+        const double change = plain_sweep(plain);
+        EXPECT_EQ(sweep_in_pairs(parts, pairs.groups, pairs.rows), parts.measure ? change : 0);
+        EXPECT_EQ(sweep(parts, widest.groups, widest.rows), parts.measure ? change : 0);
       }
+      expect_same_bits(plain, pairs);
+      expect_same_bits(plain, widest);
     }
   }
 }
