@@ -14,7 +14,7 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
-#include "libindet/io/table.h"
+#include "libindet/io/csv_table.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
@@ -189,7 +189,7 @@ std::vector<Contact> read_contacts(const Table& table, const Packing& packing, c
     contact.gap = table.number_or(row, "gap", geometric_gap(packing, contact.a, contact.b));
     contact.mu = read_friction(table, row, scene);
     contact.R = table.number_or(row, "R", kNaN);
-    contact.T = table.number_or(row, "T", kNaN);
+    contact.T = table.number_or(row, "T", contact.mu == 0 && std::isfinite(contact.R) ? 0 : kNaN);
     contacts.push_back(contact);
   }
   return contacts;
