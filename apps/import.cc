@@ -97,15 +97,19 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
                          {"gravity", {packing.gravity.x(), packing.gravity.y()}},
                          {"force_unit", packing.force_unit()},
                          {"forces_known", report.forces_known},
+                         {"known_forces", report.known_forces},
+                         {"checked_disks", report.checked_disks},
                          {"duplicates", report.duplicates},
                          {"levers", packing.has_levers()},
                          {"without_equations", imported.without_equations},
                          {"loose_disks", report.loose_disks},
                          {"balance_tolerance", tolerance},
                          {"warnings", imported.warnings}};
-  if (report.forces_known) {
+  if (report.checked_disks > 0) {
     json["force_residual"] = report.force_residual;
     json["torque_residual"] = report.torque_residual;
+  }
+  if (report.any_known()) {
     json["coulomb_violations"] = report.coulomb_violations;
     json["worst_violation"] = report.worst_violation;
     json["sliding"] = report.sliding;
@@ -114,12 +118,23 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
   return json;
 }
 
+/// "131 of 262 forces known; their balance was checked on 12 of 50 disks, which have all of them".
+std::string describe_knowledge(const Packing& packing, const BalanceReport& report) {
+  if (!report.any_known()) return "the forces are unknown, so their balance was not checked";
+  const std::string known =
+      fmt::format("{} of {} forces known; ", report.known_forces, 2 * packing.contact_count());
+  if (report.checked_disks == 0) return known + "no disk has all of them, so their balance was not checked";
+  return known + fmt::format("their balance was checked on {} of {}, which have all of them",
+                             report.checked_disks, counted(packing.free_disk_count(), "disk"));
+}
+
 void print_report(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
   const Packing& packing = imported.packing;
   fmt::print("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", describe_disks(packing),
              counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"),
              packing.gravity.x(), packing.gravity.y(), packing.force_unit());
-  if (report.forces_known) {
+  if (!report.forces_known) fmt::print("{}\n", describe_knowledge(packing, report));
+  if (report.checked_disks > 0) {
     // Where nothing is left over there is no worst disk.
     const auto name = [&](DiskId disk) {
       return disk.value() < 0 ? "" : fmt::format(" (disk {})", packing[disk].id);
@@ -127,12 +142,12 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
     fmt::print("largest net force   {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
     fmt::print("largest net torque  {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
     fmt::print("                    (accepted up to {:.0e})\n", tolerance);
+  }
+  if (report.any_known()) {
     fmt::print("Coulomb violations  {}", report.coulomb_violations);
     if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);
     fmt::print("\nsliding contacts    {}\n", report.sliding - 2 * report.non_transmitting);
     fmt::print("without force       {}\n", report.non_transmitting);
-  } else {
-    fmt::print("the forces are unknown, so their balance was not checked\n");
   }
   if (packing.has_levers()) fmt::print("levers              {}\n", describe_levers(packing));
   fmt::print("listed twice        {}\n", report.duplicates);

@@ -327,6 +327,9 @@ inline constexpr double kNormalShift = 1e-10;
 /// chosen to fit.
 inline constexpr double kCellSize = 1e-14;
 
+/// A disk of the grid may begin this much beyond a wall, relative to the size of the grid: rounding of both.
+inline constexpr double kWallStart = 1e-12;
+
 /// A quotient this little below a whole number is that number.
 inline constexpr double kWholeNumber = 1e-9;
 

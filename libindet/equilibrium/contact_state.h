@@ -12,7 +12,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(c
                                                                                const SceneForces& forces);
 
 /// How a contact state stands to the Coulomb conditions [16], with tolerance ε (in the internal unit of
-/// force, which is mg unless the scene names a unit that says little about it).
+/// force, which is mg unless the scene names a unit that says little about it). Of an unknown force (NaN) no
+/// condition tells; R < 0 does without T.
 struct CoulombCount {
   int sliding = 0;             ///< μR − |T| < ε, counting a non-transmitting contact twice (Sec. II E)
   int non_transmitting = 0;    ///< R, |T| < ε

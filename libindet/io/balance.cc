@@ -13,26 +13,39 @@
 
 namespace indet {
 
-BalanceReport report_balance(const ImportedPacking& imported) {
-  const Packing& packing = imported.packing;
-  BalanceReport report;
-  report.duplicates = imported.duplicates;
-  std::vector<bool> held(packing.disks.size(), false);
-  for (const Contact& contact : packing.contacts) {
-    held[static_cast<std::size_t>(contact.a.value())] = true;
-    if (!contact.b.is_wall()) held[static_cast<std::size_t>(contact.b.disk_id().value())] = true;
-  }
-  for (std::size_t i = held.size(); i-- > 0;) {
-    if (held[i] || packing.disks[i].fixed) continue;
-    ++report.loose_disks;
-    report.first_loose = DiskId(static_cast<std::int64_t>(i));
-  }
-  report.forces_known = packing.has_simulated_forces();
-  if (!report.forces_known) return report;
+namespace {
 
-  const SceneForces forces = packing.simulated_forces();
+/// What is known about the forces of each disk.
+struct DiskKnowledge {
+  std::vector<bool> held, complete;  ///< It has a contact; R and T of all its contacts are known.
+
+  explicit DiskKnowledge(const Packing& packing)
+      : held(packing.disks.size(), false), complete(packing.disks.size(), true) {
+    for (const Contact& contact : packing.contacts) {
+      const bool known = std::isfinite(contact.R) && std::isfinite(contact.T);
+      note(contact.a, known);
+      if (!contact.b.is_wall()) note(contact.b.disk_id(), known);
+    }
+  }
+
+ private:
+  void note(DiskId disk, bool known) {
+    const auto row = static_cast<std::size_t>(disk.value());
+    held[row] = true;
+    if (!known) complete[row] = false;
+  }
+};
+
+/// Net forces and torques of the disks whose forces are all known. A disk without contacts is one of them
+/// only where all other forces are known too: a list of measured forces may lack contacts.
+void report_residuals(const Packing& packing, const SceneForces& forces, const DiskKnowledge& knowledge,
+                      BalanceReport& report) {
   const auto residual = equilibrium_residual(packing, forces);
   for (int i = 0; i < packing.disk_count(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const bool checked = report.forces_known || (knowledge.held[row] && knowledge.complete[row]);
+    if (!checked || !packing.has_equations(DiskId(i))) continue;
+    ++report.checked_disks;
     const double force = std::hypot(residual(i, 0), residual(i, 1));
     if (force > report.force_residual) {
       report.force_residual = force;
@@ -44,6 +57,28 @@ BalanceReport report_balance(const ImportedPacking& imported) {
       report.worst_torque = DiskId(i);
     }
   }
+}
+
+}  // namespace
+
+BalanceReport report_balance(const ImportedPacking& imported) {
+  const Packing& packing = imported.packing;
+  const DiskKnowledge knowledge(packing);
+  BalanceReport report;
+  report.duplicates = imported.duplicates;
+  for (std::size_t i = knowledge.held.size(); i-- > 0;) {
+    if (knowledge.held[i] || packing.disks[i].fixed) continue;
+    ++report.loose_disks;
+    report.first_loose = DiskId(static_cast<std::int64_t>(i));
+  }
+  report.forces_known = packing.has_simulated_forces();
+  for (const Contact& contact : packing.contacts) {
+    report.known_forces += (std::isfinite(contact.R) ? 1 : 0) + (std::isfinite(contact.T) ? 1 : 0);
+  }
+  if (!report.any_known()) return report;
+
+  const SceneForces forces = packing.simulated_forces();
+  report_residuals(packing, forces, knowledge, report);
   const CoulombCount coulomb = count_coulomb(packing, forces, tolerance::kSliding);
   report.coulomb_violations = coulomb.violated;
   report.worst_violation = coulomb.worst_violation;
@@ -75,7 +110,7 @@ double default_balance_tolerance(const ImportedPacking& imported) {
 
 void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
   const double worst = std::max(report.force_residual, report.torque_residual);
-  if (!report.forces_known || worst <= tolerance) return;
+  if (report.checked_disks == 0 || worst <= tolerance) return;
   const bool force = report.force_residual >= report.torque_residual;
   const DiskId disk = force ? report.worst_force : report.worst_torque;
   const bool loose = std::none_of(

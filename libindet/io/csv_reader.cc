@@ -14,7 +14,7 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
-#include "libindet/io/table.h"
+#include "libindet/io/csv_table.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
@@ -204,7 +204,7 @@ ContactRows read_contacts(const Table& table, const Packing& packing, const IdMa
     contact.gap = table.number_or(row, "gap", geometric_gap(packing, contact.a, contact.b));
     contact.mu = read_friction(table, row, scene);
     contact.R = table.number_or(row, "R", kNaN);
-    contact.T = table.number_or(row, "T", kNaN);
+    contact.T = table.number_or(row, "T", contact.mu == 0 && std::isfinite(contact.R) ? 0 : kNaN);
     contact.lever_a = table.number_or(row, "lever_a", kNaN);
     contact.lever_b = table.number_or(row, "lever_b", kNaN);
     if (!packing.has_equations(contact.a) && !packing.has_equations(contact.b)) continue;

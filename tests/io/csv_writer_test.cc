@@ -8,8 +8,8 @@
 
 #include "libindet/base/error.h"
 #include "libindet/io/csv_reader.h"
+#include "libindet/io/csv_table.h"
 #include "libindet/io/lammps_reader.h"
-#include "libindet/io/table.h"
 #include "tests/io/sample.h"
 #include "tests/support/temporary_folder.h"
 
