@@ -10,6 +10,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
+#include "libindet/io/imbalance.h"
 
 namespace indet {
 
@@ -23,7 +24,7 @@ BalanceReport report_balance(const ImportedPacking& imported) {
     if (!contact.b.is_wall()) held[static_cast<std::size_t>(contact.b.disk_id().value())] = true;
   }
   for (std::size_t i = held.size(); i-- > 0;) {
-    if (held[i]) continue;
+    if (held[i] || packing.disks[i].fixed) continue;
     ++report.loose_disks;
     report.first_loose = DiskId(static_cast<std::int64_t>(i));
   }
@@ -33,6 +34,7 @@ BalanceReport report_balance(const ImportedPacking& imported) {
   const SceneForces forces = packing.simulated_forces();
   const auto residual = equilibrium_residual(packing, forces);
   for (int i = 0; i < packing.disk_count(); ++i) {
+    if (!packing.has_equations(DiskId(i))) continue;
     const double force = std::hypot(residual(i, 0), residual(i, 1));
     if (force > report.force_residual) {
       report.force_residual = force;
@@ -81,14 +83,23 @@ void require_balance(const ImportedPacking& imported, const BalanceReport& repor
   const bool loose = std::none_of(
       imported.packing.contacts.begin(), imported.packing.contacts.end(),
       [&](const Contact& c) { return c.a == disk || (!c.b.is_wall() && c.b.disk_id() == disk); });
-  throw InputError(fmt::format(
-      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. {}",
-      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance,
-      loose
-          ? "This disk has no contact: leave it out, or give the contacts that hold it."
-          : "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
-            "and their forces the normal and tangential ones on body a? If the deviation is acceptable, "
-            "raise --balance-tol; the ranges do not depend on the simulated forces."));
+  std::string message = fmt::format(
+      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. ",
+      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance);
+  if (loose) {
+    message += "This disk has no contact: leave it out, or give the contacts that hold it.";
+  } else {
+    message +=
+        "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
+        "and their forces the normal and tangential ones on body a?";
+    for (const ImbalanceCause& cause : find_causes(imported, tolerance)) {
+      message += fmt::format("\n  {} {}", cause.explains ? "→" : "-", cause.text);
+    }
+    message +=
+        "\nIf the deviation is acceptable, raise --balance-tol; the ranges do not depend on the simulated "
+        "forces.";
+  }
+  throw InputError(message);
 }
 
 }  // namespace indet

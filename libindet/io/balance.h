@@ -10,16 +10,16 @@ namespace indet {
 /// force (mg), those of torque divided by the radius of the disk.
 struct BalanceReport {
   bool forces_known = false;  ///< If not, all that follows but loose_disks is 0.
-  double force_residual = 0;  ///< Largest magnitude of the net force on a disk.
+  double force_residual = 0;  ///< Largest magnitude of the net force on a free disk.
   DiskId worst_force;
-  double torque_residual = 0;  ///< Largest magnitude of the net torque on a disk.
+  double torque_residual = 0;  ///< Largest magnitude of the net torque on a free disk.
   DiskId worst_torque;
   int coulomb_violations = 0;  ///< Contacts with R < −ε or |T| > μR + ε, ε = tolerance::kSliding.
   double worst_violation = 0;  ///< Largest of −R and |T| − μR.
   int sliding = 0;             ///< Non-transmitting contacts count twice.
   int non_transmitting = 0;    ///< R and |T| below ε.
   int duplicates = 0;          ///< Contacts given twice with equal forces, and taken once.
-  int loose_disks = 0;         ///< Disks without contacts.
+  int loose_disks = 0;         ///< Free disks without contacts.
   DiskId first_loose;          ///< The first of them.
 };
 
@@ -30,8 +30,8 @@ BalanceReport report_balance(const ImportedPacking& imported);
 /// a file with few digits explains.
 double default_balance_tolerance(const ImportedPacking& imported);
 
-/// Throws InputError with advice if a residual is above `tolerance` (mg). A packing whose forces are unknown
-/// passes.
+/// Throws InputError if a residual is above `tolerance` (mg), with the causes that it may have and what each
+/// would leave (imbalance.h). A packing whose forces are unknown passes.
 void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance);
 
 }  // namespace indet

@@ -10,8 +10,8 @@
 
 namespace indet {
 
-/// The text of a file. Throws InputError if it cannot be read. A UTF-8 byte order mark is dropped; UTF-16 is
-/// refused.
+/// The text of a file, unpacked if it is a gzip file. Throws InputError if it cannot be read. A UTF-8 byte
+/// order mark is dropped; UTF-16 is refused.
 std::shared_ptr<const std::string> read_text(const std::filesystem::path& path);
 
 /// One number, independent of the locale: "1", "-1.5e3", "+2", "nan", "inf". The whole of `text` must be the
