@@ -19,6 +19,7 @@
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
+#include "apps/wording.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
@@ -108,8 +109,9 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
   nlohmann::json json = summary_to_json(ranges);
   json.update({{"output", output},
                {"disks", packing.disk_count()},
+               {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
                {"contacts", packing.contact_count()},
-               {"expected_dim", 2 * packing.contact_count() - 3 * packing.disk_count()},
+               {"expected_dim", packing.expected_dimension()},
                {"unique", ranges.unique.cast<int>().sum()},
                {"states", ranges.states.rows()},
                {"widest_enclosure", json_number(firmness(ranges).widest_enclosure)},
@@ -226,9 +228,9 @@ void print_quality(const ForceRanges& ranges) {
 }
 
 void print_summary(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
-  fmt::print("{}, {}: {} unknown forces, {} equations, rank {}, nullity {}\n",
-             counted(packing.disk_count(), "disk"), counted(packing.contact_count(), "contact"),
-             ranges.unknowns, ranges.equations, ranges.rank, ranges.nullity);
+  fmt::print("{}, {}: {} unknown forces, {} equations, rank {}, nullity {}\n", describe_disks(packing),
+             counted(packing.contact_count(), "contact"), ranges.unknowns, ranges.equations, ranges.rank,
+             ranges.nullity);
   if (ranges.rank_ambiguous) {
     fmt::print(
         "The rank is ambiguous: rounding does not tell whether a singular value is zero (smallest that was "
@@ -246,8 +248,7 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     return;
   }
   fmt::print("polytope of contact states: {}, dimension {} (2M − 3N = {}), {}\n", to_string(ranges.status),
-             ranges.dim, 2 * packing.contact_count() - 3 * packing.disk_count(),
-             counted(ranges.blocks, "independent block"));
+             ranges.dim, packing.expected_dimension(), counted(ranges.blocks, "independent block"));
   if (ranges.sliding >= 0)
     fmt::print("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
   if (ranges.choice != ContactChoice::Kind::kAll)

@@ -15,6 +15,7 @@
 #include "apps/configuration.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
+#include "apps/wording.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/range/analyze.h"
@@ -237,7 +238,7 @@ int run(const CompareCommand& options, const Context& context) {
     return status_of(entries);
   }
   if (context.quiet) return status_of(entries);
-  fmt::print("{}, {}: polytope of contact states {}, dimension {}\n", counted(packing.disk_count(), "disk"),
+  fmt::print("{}, {}: polytope of contact states {}, dimension {}\n", describe_disks(packing),
              counted(packing.contact_count(), "contact"), to_string(lp.status), lp.dim);
   fmt::print("common to all methods: {:.3f} s (polytope)\n\n", common_seconds(entries));
   print_table(entries);

@@ -8,6 +8,7 @@
 #include "apps/command.h"
 #include "apps/import_arguments.h"
 #include "apps/output_files.h"
+#include "apps/wording.h"
 #include "libindet/base/error.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/lever_search.h"
@@ -21,19 +22,23 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
   const Packing& packing = imported.packing;
   nlohmann::json json = {{"output", output},
                          {"disks", packing.disk_count()},
+                         {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
                          {"walls", packing.wall_count()},
                          {"contacts", packing.contact_count()},
                          {"gravity", {packing.gravity.x(), packing.gravity.y()}},
                          {"force_unit", packing.force_unit()},
                          {"forces_known", report.forces_known},
                          {"duplicates", report.duplicates},
+                         {"levers", packing.has_levers()},
+                         {"without_equations", imported.without_equations},
                          {"loose_disks", report.loose_disks},
                          {"balance_tolerance", tolerance},
                          {"warnings", imported.warnings}};
   if (imported.levers) {
-    json["levers"] = {{"chosen", name_of(imported.levers->levers)}, {"tried", nlohmann::json::object()}};
+    json["lever_choice"] = {{"levers", name_of(imported.levers->levers)},
+                            {"tried", nlohmann::json::object()}};
     for (const LeverTrial& trial : imported.levers->trials) {
-      json["levers"]["tried"][name_of(trial.levers)] = trial.residual;
+      json["lever_choice"]["tried"][name_of(trial.levers)] = trial.residual;
     }
   }
   if (report.forces_known) {
@@ -76,7 +81,7 @@ void print_levers(const LeverChoice& choice) {
 
 void print_report(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
   const Packing& packing = imported.packing;
-  fmt::print("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", counted(packing.disk_count(), "disk"),
+  fmt::print("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", describe_disks(packing),
              counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"),
              packing.gravity.x(), packing.gravity.y(), packing.force_unit());
   if (report.forces_known) {
@@ -95,7 +100,12 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
   } else {
     fmt::print("the forces are unknown, so their balance was not checked\n");
   }
+  if (packing.has_levers() && !imported.levers)
+    fmt::print("levers              {}\n", describe_levers(packing));
   fmt::print("listed twice        {}\n", report.duplicates);
+  if (imported.without_equations > 0)
+    fmt::print("left out            {} between two bodies that do not move\n",
+               counted(imported.without_equations, "contact"));
   fmt::print("loose disks         {}", report.loose_disks);
   if (report.loose_disks > 0) fmt::print(", the first is disk {}", packing[report.first_loose].id);
   fmt::print("\n");

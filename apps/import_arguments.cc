@@ -10,13 +10,14 @@
 #include "apps/configuration.h"
 #include "apps/output_files.h"
 #include "libindet/base/error.h"
+#include "libindet/io/liggghts_reader.h"
 
 namespace indet::app {
 namespace {
 
 /// Options that only some formats take.
 constexpr const char* kSomeFormats[] = {"--atoms",   "--contacts", "--timestep",   "--friction", "--gravity",
-                                        "--columns", "--fixed",    "--force-unit", "--plane"};
+                                        "--columns", "--fixed",    "--force-unit", "--plane",    "--walls"};
 
 [[noreturn]] void fail(const std::string& reason) { throw UsageError(reason); }
 
@@ -95,10 +96,11 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
       inputs += fmt::format("{}{}: {}", inputs.empty() ? "" : "; ", format.name, format.input);
   }
   command.add_option("input", arguments.input, inputs);
-  command.add_option("--atoms", arguments.dumps.atoms, "lammps: the dump of atoms (dump custom)");
-  command.add_option("--contacts", arguments.dumps.contacts, "lammps: the dump of contacts (dump local)");
+  command.add_option("--atoms", arguments.dumps.atoms, "lammps, liggghts: the dump of atoms (dump custom)");
+  command.add_option("--contacts", arguments.dumps.contacts,
+                     "lammps, liggghts: the dump of contacts (dump local)");
   command.add_option("--timestep", arguments.dumps.timestep,
-                     "lammps: timestep of the frame to read (default: the last)");
+                     "lammps, liggghts: timestep of the frame to read (default: the last)");
   command
       .add_option(
           "--friction", arguments.friction,
@@ -130,11 +132,15 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
   command.add_option("--plane", arguments.plane, "Plane of the disks: xy or xz (default: xy; not csv)")
       ->check(CLI::IsMember({"xy", "xz"}));
   command
-      .add_option(
-          "--columns", arguments.columns,
-          "lammps: columns that have other names in the dumps, as NAME=COLUMN,… with NAME one of id, type, "
-          "x, y, radius, diameter, mass, vx, vy, omegaz, atom1, atom2, fx, fy, p1, p2, mu, wall:NAME "
-          "(docs/importing.md)")
+      .add_option("--columns", arguments.columns,
+                  "lammps, liggghts: columns that have other names in the dumps, as NAME=COLUMN,… with NAME "
+                  "one of id, type, "
+                  "x, y, radius, diameter, mass, vx, vy, omegaz, atom1, atom2, fx, fy, p1, p2, mu, wall:NAME "
+                  "(docs/importing.md)")
+      ->delimiter(',');
+  command
+      .add_option("--walls", arguments.walls,
+                  "liggghts: where the primitive walls of the fixes lie, as NAME=x:0,NAME=y:0.1,…")
       ->delimiter(',');
   command
       .add_option("--balance-tol", arguments.balance_tolerance,
@@ -162,10 +168,12 @@ ImportOrder import_order(const ImportArguments& arguments, const CLI::App& comma
   order.request.dumps = arguments.dumps;
   settings.friction = parsed("--friction", [&] { return FrictionRule::parse(arguments.friction); });
   settings.fixed = parsed("--fixed", [&] { return FixedRule::parse(arguments.fixed); });
+  order.request.walls = arguments.walls;
   order.levers = parsed("--lever", [&] { return LeverRule::parse(arguments.lever); });
   settings.columns = parse_columns(arguments.columns);
   settings.plane = arguments.plane == "xz" ? Plane::xz() : Plane::xy();
   settings.force_unit = arguments.force_unit;
+  parsed("--walls", [&] { return parse_walls(arguments.walls, settings.plane); });
   if (command.count("--gravity") > 0) settings.gravity = Vector2(arguments.gravity[0], arguments.gravity[1]);
   if (!order.format->lacks_friction.empty() && settings.friction.empty() &&
       !settings.columns.contains("mu")) {

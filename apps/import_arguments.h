@@ -13,7 +13,7 @@ namespace indet::app {
 struct ImportArguments {
   std::string format, input, output;
   DumpFiles dumps;
-  std::vector<std::string> friction, lever, fixed, columns;
+  std::vector<std::string> friction, lever, fixed, columns, walls;
   std::vector<double> gravity = {0, -1};
   double force_unit = 0;
   std::string plane = "xy";

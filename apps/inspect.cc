@@ -20,6 +20,7 @@
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
+#include "apps/wording.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/file_kind.h"
 #include "libindet/io/packing_file.h"
@@ -132,8 +133,10 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"protocol", packing.origin.protocol},
       {"seed", packing.origin.seed < 0 ? nlohmann::json() : nlohmann::json(packing.origin.seed)},
       {"disks", packing.disk_count()},
+      {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
       {"walls", packing.wall_count()},
       {"contacts", packing.contact_count()},
+      {"levers", packing.has_levers()},
       {"gravity", {packing.gravity.x(), packing.gravity.y()}},
       {"force_unit", packing.force_unit()},
       {"r_max", packing.max_radius()},
@@ -193,13 +196,17 @@ void print_packing(const FileContents& contents) {
     walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ",
                          wall.name.empty() ? fmt::format("{}", wall.id) : wall.name);
   }
+  const int fixed = packing.disk_count() - packing.free_disk_count();
   print_line("packing",
              fmt::format("{}{}", packing.origin.protocol,
                          packing.origin.seed < 0 ? "" : fmt::format(", seed {}", packing.origin.seed)));
-  print_line("  disks", fmt::format("{}, radius {}", packing.disk_count(), span_text(radius, "")));
+  print_line("  disks",
+             fmt::format("{}{}, radius {}", packing.disk_count(),
+                         fixed > 0 ? fmt::format(" ({} fixed)", fixed) : "", span_text(radius, "")));
   print_line("  walls", walls);
-  print_line("  contacts", fmt::format("{} (2M − 3N = {})", packing.contact_count(),
-                                       2 * packing.contact_count() - 3 * packing.disk_count()));
+  print_line("  contacts",
+             fmt::format("{} (2M − 3N = {})", packing.contact_count(), packing.expected_dimension()));
+  if (packing.has_levers()) print_line("  levers", describe_levers(packing));
   print_line("  friction",
              friction.low == friction.high ? fmt::format("{:g}", friction.low) : span_text(friction, ""));
   if (packing.origin.width > 0 && packing.origin.height > 0) {

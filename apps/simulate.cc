@@ -218,7 +218,7 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
       throw InputError(fmt::format("{} is from a run with other options; delete it, or run without --resume",
                                    checkpoint_path.string()));
     }
-    resume = loaded(checkpoint, start.world.friction);
+    resume = loaded(checkpoint, start.world);
     trajectory = checkpoint.trajectory;
     context.note("resuming after " + counted(resume->report.steps, "step"));
   }

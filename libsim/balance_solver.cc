@@ -33,7 +33,8 @@ std::vector<int> elimination_places(const Packing& packing) {
 }  // namespace
 
 BalanceSolver::Direction BalanceSolver::Link::direction(double R, double T) const {
-  return {.R = R, .T = T, .x = R * nx + T * ny, .y = R * ny - T * nx};
+  return {
+      .R = R, .T = T, .x = R * nx + T * ny, .y = R * ny - T * nx, .turn_a = arm_a * T, .turn_b = arm_b * T};
 }
 
 BalanceSolver::BalanceSolver(const Packing& packing) {
@@ -46,11 +47,16 @@ BalanceSolver::BalanceSolver(const Packing& packing) {
     load_.segment<3>(3 * places[i]) << wrench.x(), wrench.y(), wrench.z() / packing[DiskId(i)].radius;
   }
   for (const Contact& contact : packing.contacts) {
-    links_.push_back({.row_a = 3 * places[contact.a.value()],
-                      .row_b = contact.b.is_wall() ? -1 : 3 * places[contact.b.disk_id().value()],
-                      .nx = contact.normal.x(),
-                      .ny = contact.normal.y(),
-                      .mu = contact.mu});
+    Link link{.nx = contact.normal.x(), .ny = contact.normal.y(), .mu = contact.mu};
+    if (packing.has_equations(contact.a)) {
+      link.row_a = 3 * places[contact.a.value()];
+      link.arm_a = packing.lever_a(contact) / packing[contact.a].radius;
+    }
+    if (packing.has_equations(contact.b)) {
+      link.row_b = 3 * places[contact.b.disk_id().value()];
+      link.arm_b = packing.lever_b(contact) / packing[contact.b.disk_id()].radius;
+    }
+    links_.push_back(link);
   }
   lay_out(disks);
   cholesky_.analyzePattern(normal_);
@@ -60,7 +66,7 @@ void BalanceSolver::lay_out(int disks) {
   // Blocks of 3 × 3, by columns, the block of a body with itself last; of that the upper triangle.
   std::vector<std::set<int>> above(static_cast<std::size_t>(disks));
   for (const Link& link : links_) {
-    if (link.row_b < 0) continue;
+    if (!link.joins_two_rows()) continue;
     const auto [low, high] = std::minmax(link.row_a, link.row_b);
     above[high / 3].insert(low);
   }
@@ -85,7 +91,7 @@ void BalanceSolver::lay_out(int disks) {
     diagonal_.push_back(columns(body, static_cast<int>(above[body].size())));
   }
   for (Link& link : links_) {
-    if (link.row_b < 0) continue;
+    if (!link.joins_two_rows()) continue;
     const auto [low, high] = std::minmax(link.row_a, link.row_b);
     const std::set<int>& blocks = above[high / 3];
     link.columns = columns(high / 3, static_cast<int>(std::distance(blocks.begin(), blocks.find(low))));
@@ -94,17 +100,17 @@ void BalanceSolver::lay_out(int disks) {
 
 void BalanceSolver::add(const Link& link, const Direction& direction) {
   double* values = normal_.valuePtr();
-  const std::array<double, 3> on_a{direction.x, direction.y, direction.T};
-  const std::array<double, 3> on_b{-direction.x, -direction.y, direction.T};
+  const std::array<double, 3> on_a{direction.x, direction.y, direction.turn_a};
+  const std::array<double, 3> on_b{-direction.x, -direction.y, direction.turn_b};
   const auto add_to_diagonal = [&](int row, const std::array<double, 3>& on) {
     const std::array<int, 3>& starts = diagonal_[row / 3];
     for (int column = 0; column < 3; ++column) {
       for (int k = 0; k <= column; ++k) values[starts[column] + k] += on[k] * on[column];
     }
   };
-  add_to_diagonal(link.row_a, on_a);
-  if (link.row_b < 0) return;
-  add_to_diagonal(link.row_b, on_b);
+  if (link.row_a >= 0) add_to_diagonal(link.row_a, on_a);
+  if (link.row_b >= 0) add_to_diagonal(link.row_b, on_b);
+  if (!link.joins_two_rows()) return;
   const auto& [upper, right] = link.row_a < link.row_b ? std::pair(on_a, on_b) : std::pair(on_b, on_a);
   for (int column = 0; column < 3; ++column) {
     for (int k = 0; k < 3; ++k) values[link.columns[column] + k] += upper[k] * right[column];
@@ -147,13 +153,15 @@ double BalanceSolver::residual(const Eigen::VectorXd& forces) {
     const double T = forces[2 * static_cast<Eigen::Index>(i) + 1];
     const double x = R * link.nx + T * link.ny;
     const double y = R * link.ny - T * link.nx;
-    sum[link.row_a] += x;
-    sum[link.row_a + 1] += y;
-    sum[link.row_a + 2] += T;
+    if (link.row_a >= 0) {
+      sum[link.row_a] += x;
+      sum[link.row_a + 1] += y;
+      sum[link.row_a + 2] += link.arm_a * T;
+    }
     if (link.row_b < 0) continue;
     sum[link.row_b] -= x;
     sum[link.row_b + 1] -= y;
-    sum[link.row_b + 2] += T;
+    sum[link.row_b + 2] += link.arm_b * T;
   }
   return imbalance_.size() == 0 ? 0 : imbalance_.lpNorm<Eigen::Infinity>();
 }
@@ -179,10 +187,11 @@ void BalanceSolver::apply(Eigen::VectorXd& forces) {
       const Link& link = links_[c];
       for (int k = 0; k < link.free; ++k) {
         const Direction& d = link.directions[k];
-        double change = d.x * x[link.row_a] + d.y * x[link.row_a + 1] + d.T * x[link.row_a + 2];
-        if (link.row_b >= 0) {
-          change += -d.x * x[link.row_b] - d.y * x[link.row_b + 1] + d.T * x[link.row_b + 2];
-        }
+        double change = 0;
+        if (link.row_a >= 0)
+          change = d.x * x[link.row_a] + d.y * x[link.row_a + 1] + d.turn_a * x[link.row_a + 2];
+        if (link.row_b >= 0)
+          change += -d.x * x[link.row_b] - d.y * x[link.row_b + 1] + d.turn_b * x[link.row_b + 2];
         forces[2 * static_cast<Eigen::Index>(c)] -= change * d.R;
         forces[2 * static_cast<Eigen::Index>(c) + 1] -= change * d.T;
       }

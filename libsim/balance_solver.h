@@ -19,7 +19,7 @@ enum class ContactStatus : std::uint8_t { kSticking, kSlidingUp, kSlidingDown, k
 ///
 /// with A's columns the unit force directions that the contacts' statuses leave free, through the normal
 /// equations A Aᵀ (3N × 3N, sparse Cholesky with refinement). Forces are in the internal unit of the packing,
-/// torques are divided by the disk's radius.
+/// torques are divided by the disk's radius. Fixed disks have rows of 0.
 ///
 /// Which entries of A Aᵀ can differ from zero follows from the contacts alone: the order of elimination and
 /// the pattern of the factor are found once, and each set of statuses only fills in numbers. Results depend
@@ -47,17 +47,20 @@ class BalanceSolver {
   struct Direction {
     double R, T;
     double x, y;
+    double turn_a, turn_b;  ///< l/r T
   };
   struct Link {
-    int row_a = 0;   ///< First of the three rows of body a, in the order of elimination.
-    int row_b = -1;  ///< −1: a wall.
+    int row_a = -1;  ///< First of the three rows of body a, in the order of elimination. −1: fixed.
+    int row_b = -1;  ///< −1: a wall, or fixed.
     double nx = 0, ny = 0;
+    double arm_a = 1, arm_b = 1;  ///< l/r
     double mu = 0;
     std::array<int, 3> columns{};  ///< Places in the values of the block of a and b, one a column.
     int free = 0;                  ///< How many of the directions the status leaves.
     std::array<Direction, 2> directions{};
 
     Direction direction(double R, double T) const;
+    bool joins_two_rows() const { return row_a >= 0 && row_b >= 0; }
   };
 
   void lay_out(int disks);

@@ -23,6 +23,12 @@ bool any_offset(std::span<const SolverContact> contacts) {
   });
 }
 
+/// Levers that are not the radius.
+bool any_arm(std::span<const SolverContact> contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const SolverContact& c) { return c.arm_a != 1 || c.arm_b != 1; });
+}
+
 bool moves(const SolverContact& c) { return c.inverse_mass_b > 0 || c.inverse_spin_b > 0; }
 
 }  // namespace
@@ -30,7 +36,7 @@ bool moves(const SolverContact& c) { return c.inverse_mass_b > 0 || c.inverse_sp
 void SolverContact::prepare() {
   const double w_n = inverse_mass_a + inverse_mass_b;
   scale_n = 1 / (w_n + compliance);
-  scale_t = 1 / (w_n + inverse_spin_a + inverse_spin_b + compliance);
+  scale_t = 1 / (w_n + arm_a * arm_a * inverse_spin_a + arm_b * arm_b * inverse_spin_b + compliance);
 }
 
 void apply_impulses(std::span<const SolverContact> contacts, std::span<SolverBody> bodies) {
@@ -39,8 +45,8 @@ void apply_impulses(std::span<const SolverContact> contacts, std::span<SolverBod
     SolverBody& b = bodies[c.b];
     const double px = c.nx * c.p_n + c.ny * c.p_t;
     const double py = c.ny * c.p_n - c.nx * c.p_t;
-    a.s += c.inverse_spin_a * c.p_t;
-    b.s += c.inverse_spin_b * c.p_t;
+    a.s += c.arm_a * c.inverse_spin_a * c.p_t;
+    b.s += c.arm_b * c.inverse_spin_b * c.p_t;
     a.vx += c.inverse_mass_a * px;
     a.vy += c.inverse_mass_a * py;
     b.vx -= c.inverse_mass_b * px;
@@ -87,8 +93,10 @@ void ContactSolver::load(std::span<const SolverContact> contacts, std::span<cons
       pair.mu[lane] = c.mu;
       pair.inverse_mass_a[lane] = c.inverse_mass_a;
       pair.inverse_mass_b[lane] = c.inverse_mass_b;
-      pair.inverse_spin_a[lane] = c.inverse_spin_a;
-      pair.inverse_spin_b[lane] = c.inverse_spin_b;
+      pair.turn_a[lane] = c.arm_a * c.inverse_spin_a;
+      pair.turn_b[lane] = c.arm_b * c.inverse_spin_b;
+      pair.arm_a[lane] = c.arm_a;
+      pair.arm_b[lane] = c.arm_b;
     }
   }
 }
@@ -105,7 +113,7 @@ void ContactSolver::store(std::span<SolverContact> contacts, std::span<SolverBod
   }
 }
 
-template <bool kFriction, bool kOffset, bool kMeasure>
+template <bool kFriction, bool kArms, bool kOffset, bool kMeasure>
 double ContactSolver::sweep() {
   const Lanes zero = both(0);
   Lanes change = zero;
@@ -128,7 +136,13 @@ double ContactSolver::sweep() {
     Lanes px = c.nx * d_n;
     Lanes py = c.ny * d_n;
     if constexpr (kFriction) {
-      const Lanes turn = Lanes{a0.s, a1.s} + Lanes{b0.s, b1.s};
+      Lanes turn_of_a{a0.s, a1.s};
+      Lanes turn_of_b{b0.s, b1.s};
+      if constexpr (kArms) {
+        turn_of_a = c.arm_a * turn_of_a;
+        turn_of_b = c.arm_b * turn_of_b;
+      }
+      const Lanes turn = turn_of_a + turn_of_b;
       Lanes u_t = c.ny * ux - c.nx * uy + turn;
       if constexpr (kOffset) u_t = u_t + c.compliance * c.p_t + c.bias_t;
       const Lanes limit = c.mu * p_n;
@@ -139,8 +153,8 @@ double ContactSolver::sweep() {
       if constexpr (kMeasure) change = larger(change, larger(d_t, -d_t));
       px += c.ny * d_t;
       py -= c.nx * d_t;
-      const Lanes turn_a = c.inverse_spin_a * d_t;
-      const Lanes turn_b = c.inverse_spin_b * d_t;
+      const Lanes turn_a = c.turn_a * d_t;
+      const Lanes turn_b = c.turn_b * d_t;
       a0.s += turn_a[0];
       a1.s += turn_a[1];
       b0.s += turn_b[0];
@@ -156,16 +170,16 @@ double ContactSolver::sweep() {
   return std::max(change[0], change[1]);
 }
 
-template <bool kFriction, bool kOffset>
+template <bool kFriction, bool kArms, bool kOffset>
 SweepReport ContactSolver::iterate(const SweepLimits& limits) {
   SweepReport report;
   while (report.sweeps < limits.max_sweeps) {
     ++report.sweeps;
     if (report.sweeps % kCheckInterval != 0 && report.sweeps != limits.max_sweeps) {
-      sweep<kFriction, kOffset, false>();
+      sweep<kFriction, kArms, kOffset, false>();
       continue;
     }
-    report.change = sweep<kFriction, kOffset, true>();
+    report.change = sweep<kFriction, kArms, kOffset, true>();
     report.converged = report.change <= limits.tolerance;
     if (report.converged) break;
   }
@@ -177,9 +191,14 @@ SweepReport ContactSolver::solve(std::span<SolverContact> contacts, std::span<So
   if (contacts.empty()) return {.converged = true};
   load(contacts, bodies);
   const bool offset = any_offset(contacts);
-  const SweepReport report = any_friction(contacts)
-                                 ? (offset ? iterate<true, true>(limits) : iterate<true, false>(limits))
-                                 : (offset ? iterate<false, true>(limits) : iterate<false, false>(limits));
+  SweepReport report;
+  if (!any_friction(contacts)) {
+    report = offset ? iterate<false, false, true>(limits) : iterate<false, false, false>(limits);
+  } else if (any_arm(contacts)) {
+    report = offset ? iterate<true, true, true>(limits) : iterate<true, true, false>(limits);
+  } else {
+    report = offset ? iterate<true, false, true>(limits) : iterate<true, false, false>(limits);
+  }
   store(contacts, bodies);
   return report;
 }

@@ -19,17 +19,18 @@ namespace indet::sim {
 ///     u_t + C p_t + b_t = 0 where |p_t| < μ p_n, else opposed to p_t      (Coulomb)
 ///
 /// C ≥ 0 is a compliance: 0 for rigid bodies, 1/(dt(γ + k dt)) for springs with dashpots
-/// (implicit_stepper.h). Torque on every disk is + r T, so that with the surface speed s = r ω of each disk
+/// (implicit_stepper.h). Torque on every disk is + l T, so that with the surface speed s = r ω of each disk
+/// and the arms α = l/r, mostly 1,
 ///
-///     u_n = n̂·(v_a − v_b),   u_t = t̂·(v_a − v_b) + s_a + s_b,
-///     W_nn = 1/m_a + 1/m_b,  W_tt = W_nn + r_a²/I_a + r_b²/I_b,  W_nt = 0.
+///     u_n = n̂·(v_a − v_b),   u_t = t̂·(v_a − v_b) + α_a s_a + α_b s_b,
+///     W_nn = 1/m_a + 1/m_b,  W_tt = W_nn + α_a² r_a²/I_a + α_b² r_b²/I_b,  W_nt = 0.
 ///
 /// Because W_nt = 0, one contact alone is solved exactly by two projections:
 ///
 ///     p_n ← max(0, p_n − (u_n + C p_n + b_n)/(W_nn + C)),
 ///     p_t ← clamp(p_t − (u_t + C p_t + b_t)/(W_tt + C), ±μ p_n).
 
-/// Velocities and inverse masses of one body; a wall has inverse masses 0 and velocity 0.
+/// Velocities of one body; a wall and a fixed disk have inverse masses 0 and velocity 0.
 struct SolverBody {
   double vx = 0, vy = 0;
   double s = 0;  ///< Surface speed r ω.
@@ -45,6 +46,7 @@ struct SolverContact {
   double mu = 0;
   double inverse_mass_a = 0, inverse_mass_b = 0;
   double inverse_spin_a = 0, inverse_spin_b = 0;  ///< r²/I.
+  double arm_a = 1, arm_b = 1;                    ///< α
 
   /// Fills scale_n and scale_t from the inverse masses and the compliance.
   void prepare();
@@ -86,7 +88,8 @@ class ContactSolver {
     Lanes scale_n, scale_t;
     Lanes mu;
     Lanes inverse_mass_a, inverse_mass_b;
-    Lanes inverse_spin_a, inverse_spin_b;
+    Lanes turn_a, turn_b;  ///< α r²/I
+    Lanes arm_a, arm_b;
   };
   struct Row {
     Lanes v{0, 0};
@@ -96,9 +99,9 @@ class ContactSolver {
   void load(std::span<const SolverContact> contacts, std::span<const SolverBody> bodies);
   void store(std::span<SolverContact> contacts, std::span<SolverBody> bodies) const;
   /// Returns the largest change of an impulse component, or 0 without kMeasure.
-  template <bool kFriction, bool kOffset, bool kMeasure>
+  template <bool kFriction, bool kArms, bool kOffset, bool kMeasure>
   double sweep();
-  template <bool kFriction, bool kOffset>
+  template <bool kFriction, bool kArms, bool kOffset>
   SweepReport iterate(const SweepLimits& limits);
 
   std::vector<ContactEnds> ends_;

@@ -27,6 +27,11 @@ ExplicitStepper::ExplicitStepper(World world, const std::vector<ContactState>& c
   bodies_[n + 1].x = both(world_.units().length);
   bool loaded = false;
   for (int i = 0; i < n; ++i) {
+    if (world_.fixed[i]) {
+      held_ = true;
+      loads_.push_back({both(0), 0});
+      continue;
+    }
     bodies_[i].per_force = dt / world_.mass[i];
     bodies_[i].per_torque = dt * world_.radius[i] * world_.radius[i] / world_.inertia[i];
     loads_.push_back({Lanes{world_.load_x[i], world_.load_y[i]}, world_.load_torque[i] / world_.radius[i]});
@@ -77,6 +82,7 @@ void ExplicitStepper::place_springs(const std::vector<ContactState>& contacts) {
   wall_pairs_.clear();
   springs_.clear();
   wall_springs_.clear();
+  lever_pairs_.clear();
   auto contact = contacts.begin();
   const auto spring_of = [&](int a, int b) {
     if (contact == contacts.end() || contact->a != a || contact->b != b) return 0.0;
@@ -85,10 +91,14 @@ void ExplicitStepper::place_springs(const std::vector<ContactState>& contacts) {
   const int n = world_.size();
   for (int i = 0; i < n; ++i) {
     for (const int w : neighbours_.walls_near(i)) {
-      wall_pairs_.push_back({i, w});
+      wall_pairs_.push_back({i, w, world_.arms_of(i, -w - 1).a});
       wall_springs_.push_back(spring_of(i, -w - 1));
     }
     for (const int j : neighbours_.disks_near(i)) {
+      if (const Arms arms = world_.arms_of(i, j); arms != Arms{}) {
+        lever_pairs_.push_back({i, j, arms, spring_of(i, j)});
+        continue;
+      }
       pairs_.push_back({&bodies_[i], &bodies_[j]});
       springs_.push_back(spring_of(i, j));
     }
@@ -120,6 +130,7 @@ std::vector<ContactState> ExplicitStepper::state() const {
   std::vector<ContactState> contacts;
   std::size_t next = 0;
   std::size_t next_wall = 0;
+  std::size_t next_lever = 0;
   for (int i = 0; i < world_.size(); ++i) {
     for (; next_wall < wall_pairs_.size() && wall_pairs_[next_wall].disk == i; ++next_wall) {
       contacts.push_back({.a = i,
@@ -127,12 +138,22 @@ std::vector<ContactState> ExplicitStepper::state() const {
                           .mu = world_.friction.wall,
                           .spring = wall_springs_[next_wall]});
     }
+    const auto first_of_disk = static_cast<std::ptrdiff_t>(contacts.size());
     for (; next < pairs_.size() && pairs_[next].a == &bodies_[i]; ++next) {
       contacts.push_back({.a = i,
                           .b = static_cast<int>(pairs_[next].b - bodies_.data()),
                           .mu = world_.friction.disk,
                           .spring = springs_[next]});
     }
+    if (next_lever == lever_pairs_.size() || lever_pairs_[next_lever].a != i) continue;
+    for (; next_lever < lever_pairs_.size() && lever_pairs_[next_lever].a == i; ++next_lever) {
+      contacts.push_back({.a = i,
+                          .b = lever_pairs_[next_lever].b,
+                          .mu = world_.friction.disk,
+                          .spring = lever_pairs_[next_lever].spring});
+    }
+    std::sort(contacts.begin() + first_of_disk, contacts.end(),
+              [](const ContactState& p, const ContactState& q) { return p.b < q.b; });
   }
   return elastic_forces(world_, contacts, law_.k);
 }
@@ -155,13 +176,46 @@ void ExplicitStepper::add_wall_forces() {
     const double R = law.normal_force(gap, nx * a.v[0] + ny * a.v[1]);
     a.force += Lanes{R * nx, R * ny};
     if constexpr (kFriction) {
-      const double u_t = ny * a.v[0] - nx * a.v[1] + a.turn[0];
+      const double arm = wall_pairs_[k].arm;
+      const double u_t = ny * a.v[0] - nx * a.v[1] + arm * a.turn[0];
       const auto [T, spring, sliding] =
           law.tangential_force(wall_springs_[k] + dt_ * u_t, u_t, world_.friction.wall * R);
       wall_springs_[k] = spring;
       a.force += Lanes{T * ny, -T * nx};
-      a.t += T;
+      a.t += arm * T;
     }
+  }
+}
+
+template <bool kFriction>
+void ExplicitStepper::add_lever_pair_forces() {
+  const SpringLaw law = law_;
+  for (LeverPair& pair : lever_pairs_) {
+    Body& a = bodies_[pair.a];
+    Body& b = bodies_[pair.b];
+    const Lanes apart = a.x - b.x;
+    const double distance = std::sqrt(apart[0] * apart[0] + apart[1] * apart[1]);
+    const double gap = distance - (a.turn[1] + b.turn[1]);
+    if (gap >= 0) {
+      pair.spring = 0;
+      continue;
+    }
+    const double nx = apart[0] / distance;
+    const double ny = apart[1] / distance;
+    const Lanes u = a.v - b.v;
+    const double R = law.normal_force(gap, nx * u[0] + ny * u[1]);
+    Lanes force{R * nx, R * ny};
+    if constexpr (kFriction) {
+      const double u_t = ny * u[0] - nx * u[1] + pair.arms.a * a.turn[0] + pair.arms.b * b.turn[0];
+      const auto [T, spring, sliding] =
+          law.tangential_force(pair.spring + dt_ * u_t, u_t, world_.friction.disk * R);
+      pair.spring = spring;
+      force += Lanes{T * ny, -T * nx};
+      a.t += pair.arms.a * T;
+      b.t += pair.arms.b * T;
+    }
+    a.force += force;
+    b.force -= force;
   }
 }
 
@@ -227,13 +281,20 @@ void ExplicitStepper::add_pair_forces() {
   }
 }
 
-template <bool kFriction>
+template <bool kFriction, bool kHeld>
 double ExplicitStepper::move() {
   const double dt = dt_;
   const Lanes fall = fall_;
   double fastest = 0;
   const Body* end = bodies_.data() + world_.size();
   for (Body* body = bodies_.data(); body != end; ++body) {
+    if constexpr (kHeld) {
+      if (body->per_force == 0) {
+        body->force = both(0);
+        body->t = 0;
+        continue;
+      }
+    }
     body->v += fall + body->per_force * body->force;
     body->x += dt * body->v;
     body->force = both(0);
@@ -255,7 +316,8 @@ void ExplicitStepper::advance_as(int steps) {
     add_loads();
     add_wall_forces<kFriction>();
     add_pair_forces<kFriction>();
-    path_ += dt_ * std::sqrt(move<kFriction>());
+    add_lever_pair_forces<kFriction>();
+    path_ += dt_ * std::sqrt(held_ ? move<kFriction, true>() : move<kFriction, false>());
   }
 }
 
@@ -272,13 +334,15 @@ void ExplicitStepper::advance(int steps) {
 
 double stiffness_factor(const World& world) {
   const double smallest = *std::min_element(world.radius.begin(), world.radius.end());
+  const double arm = world.largest_arm();
   double factor = 0;
   for (int i = 0; i < world.size(); ++i) {
+    if (world.fixed[i]) continue;
     const double around = std::floor(std::numbers::pi / std::asin(smallest / (world.radius[i] + smallest)) +
                                      tolerance::kWholeNumber);
     double response = 1 / world.mass[i];
     if (world.friction.any())
-      response = std::max(response, world.radius[i] * world.radius[i] / world.inertia[i]);
+      response = std::max(response, arm * arm * world.radius[i] * world.radius[i] / world.inertia[i]);
     factor = std::max(factor, 2 * around * response);
   }
   return factor;

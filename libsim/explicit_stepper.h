@@ -47,6 +47,13 @@ class ExplicitStepper : public Stepper {
   };
   struct WallPair {
     int disk, wall;
+    double arm;  ///< l/r
+  };
+  /// Two disks that may touch with levers of their own: rare, so that they are kept out of the pair loop.
+  struct LeverPair {
+    int a, b;
+    Arms arms;
+    double spring;
   };
   struct Load {
     Lanes force;
@@ -59,8 +66,10 @@ class ExplicitStepper : public Stepper {
   void add_wall_forces();
   template <bool kFriction>
   void add_pair_forces();
-  /// Kick and drift; returns the largest |v|².
   template <bool kFriction>
+  void add_lever_pair_forces();
+  /// Kick and drift; returns the largest |v|². With kHeld some disks are fixed.
+  template <bool kFriction, bool kHeld>
   double move();
   void load();
   void store();
@@ -83,12 +92,15 @@ class ExplicitStepper : public Stepper {
   std::vector<Load> loads_;  ///< Of each disk; empty if there are none.
   std::vector<Pair> pairs_;
   std::vector<WallPair> wall_pairs_;
+  std::vector<LeverPair> lever_pairs_;          ///< Sorted by a and b.
+  bool held_ = false;                           ///< Some disks are fixed.
   std::vector<double> springs_, wall_springs_;  ///< One for each pair.
   StepperReport report_;
 };
 
 /// An upper bound of the largest eigenvalue of M⁻¹ Σ (n̂n̂ᵀ + t̂t̂ᵀ) over all contacts that these disks can have
-/// at once: 2 max_i z_i max(1/m_i, r_i²/I_i), where z_i disks of the smallest radius fit around disk i.
+/// at once: 2 max_i z_i max(1/m_i, α² r_i²/I_i), where z_i disks of the smallest radius fit around disk i,
+/// and α r is the longest lever.
 double stiffness_factor(const World& world);
 
 /// The leapfrog step is stable if 2 dt κγ + dt² κk < 4 with κ = stiffness_factor(world); the dt of equality.

@@ -33,6 +33,7 @@ ImplicitStepper::ImplicitStepper(World world, std::vector<ContactState> contacts
   inverse_spin_.assign(n + 1, 0.0);
   speed_.resize(n);
   for (int i = 0; i < n; ++i) {
+    if (world_.fixed[i]) continue;
     inverse_mass_[i] = 1 / world_.mass[i];
     inverse_spin_[i] = world_.radius[i] * world_.radius[i] / world_.inertia[i];
   }
@@ -47,6 +48,7 @@ void ImplicitStepper::step() {
   const double dt = options_.dt;
   const int n = world_.size();
   for (int i = 0; i < n; ++i) {
+    if (world_.fixed[i]) continue;
     bodies_[i].vx = world_.vx[i] + dt * (world_.gravity.x() + world_.load_x[i] * inverse_mass_[i]);
     bodies_[i].vy = world_.vy[i] + dt * (world_.gravity.y() + world_.load_y[i] * inverse_mass_[i]);
     bodies_[i].s = world_.radius[i] * (world_.omega[i] + dt * world_.load_torque[i] / world_.inertia[i]);
@@ -132,14 +134,19 @@ void ImplicitStepper::add_contact(int a, int b, double nx, double ny, double gap
   contact.inverse_mass_b = inverse_mass_[row];
   contact.inverse_spin_a = inverse_spin_[a];
   contact.inverse_spin_b = inverse_spin_[row];
+  if (!world_.levers.empty()) {
+    const Arms arms = world_.arms_of(a, b);
+    contact.arm_a = arms.a;
+    contact.arm_b = b < 0 ? 1 : arms.b;
+  }
   if (!options_.springs) {
     const RigidLaw& law = options_.rigid;
     contact.bias_n = (gap > 0 ? 1 : law.alpha) * gap / options_.dt;
     if (law.restitution_n > 0 || law.restitution_t > 0) {
       const double ux = world_.vx[a] - (b < 0 ? 0 : world_.vx[b]);
       const double uy = world_.vy[a] - (b < 0 ? 0 : world_.vy[b]);
-      const double spin =
-          world_.radius[a] * world_.omega[a] + (b < 0 ? 0 : world_.radius[b] * world_.omega[b]);
+      const double spin = contact.arm_a * world_.radius[a] * world_.omega[a] +
+                          (b < 0 ? 0 : contact.arm_b * world_.radius[b] * world_.omega[b]);
       if (law.restitution_n > 0) {
         if (gap > 0) return;
         contact.bias_n = std::min(contact.bias_n, law.restitution_n * (nx * ux + ny * uy));
@@ -188,7 +195,8 @@ void ImplicitStepper::finish() {
     if (options_.springs && contact.mu > 0) {
       const SolverBody& a = bodies_[solved.a];
       const SolverBody& b = bodies_[solved.b];
-      const double u_t = solved.ny * (a.vx - b.vx) - solved.nx * (a.vy - b.vy) + a.s + b.s;
+      const double u_t =
+          solved.ny * (a.vx - b.vx) - solved.nx * (a.vy - b.vy) + solved.arm_a * a.s + solved.arm_b * b.s;
       contact.spring = contact.sliding ? -contact.T / options_.springs->k : contact.spring + dt * u_t;
     }
     contacts_[kept++] = contact;

@@ -81,6 +81,7 @@ void NeighbourList::rebuild(const World& world, double reach) {
         for (int k = bucket_first_[bucket + 1]; k < end; ++k) {
           const int j = bucket_disks_[k];
           if (j <= i || cell_x_[j] != cx || cell_y_[j] != cy) continue;
+          if (world.fixed[i] && world.fixed[j]) continue;
           const double ex = world.x[i] - world.x[j];
           const double ey = world.y[i] - world.y[j];
           const double distance = world.radius[i] + world.radius[j] + range;
@@ -90,7 +91,7 @@ void NeighbourList::rebuild(const World& world, double reach) {
     }
     std::sort(partners_.begin() + begin, partners_.end());
     first_.push_back(static_cast<int>(partners_.size()));
-    for (int w = 0; w < static_cast<int>(world.walls.size()); ++w) {
+    for (int w = 0; w < static_cast<int>(world.walls.size()) && !world.fixed[i]; ++w) {
       const Wall& wall = world.walls[w];
       const double height =
           (world.x[i] - wall.point.x()) * wall.normal.x() + (world.y[i] - wall.point.y()) * wall.normal.y();

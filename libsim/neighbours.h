@@ -7,9 +7,9 @@
 
 namespace indet::sim {
 
-/// Pairs of bodies that may touch (Verlet list from a hashed cell grid). Disk i's partners are disks j > i in
-/// ascending order; walls likewise. The order depends on the positions alone, not on when the list was made,
-/// so that a resumed run sums in the same order as an uninterrupted one.
+/// Pairs of bodies, one of them free, that may touch (Verlet list from a hashed cell grid). Disk i's partners
+/// are disks j > i in ascending order; walls likewise. The order depends on the positions alone, not on when
+/// the list was made, so that a resumed run sums in the same order as an uninterrupted one.
 ///
 /// A list made with reach d and skin s holds every pair whose gap is at most d + s, and stays complete for
 /// gaps up to d until some disk has moved by s/2.

@@ -9,7 +9,7 @@
 namespace indet::sim {
 namespace {
 
-/// cF + w in units of force; `forces` are in those units already.
+/// cF + w in units of force, 0 for fixed disks; `forces` are in those units already.
 Eigen::VectorXd imbalance(const Packing& packing, const Eigen::VectorXd& forces, double unit) {
   Eigen::VectorXd sum(3 * packing.disk_count());
   for (int i = 0; i < packing.disk_count(); ++i) {
@@ -22,11 +22,14 @@ Eigen::VectorXd imbalance(const Packing& packing, const Eigen::VectorXd& forces,
     const Contact& contact = packing[ContactId(i)];
     const double R = forces[2 * i];
     const double T = forces[2 * i + 1];
-    const Eigen::Vector3d on_a(R * contact.normal.x() + T * contact.normal.y(),
-                               R * contact.normal.y() - T * contact.normal.x(), T);
-    sum.segment<3>(3 * contact.a.value()) += on_a;
-    if (contact.b.is_wall()) continue;
-    sum.segment<3>(3 * contact.b.disk_id().value()) += Eigen::Vector3d(-on_a.x(), -on_a.y(), T);
+    const double x = R * contact.normal.x() + T * contact.normal.y();
+    const double y = R * contact.normal.y() - T * contact.normal.x();
+    const auto add = [&](DiskId disk, double side, double lever) {
+      sum.segment<3>(3 * disk.value()) +=
+          Eigen::Vector3d(side * x, side * y, T * (lever / packing[disk].radius));
+    };
+    if (packing.has_equations(contact.a)) add(contact.a, 1, packing.lever_a(contact));
+    if (packing.has_equations(contact.b)) add(contact.b.disk_id(), -1, packing.lever_b(contact));
   }
   return sum;
 }

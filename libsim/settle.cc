@@ -65,7 +65,8 @@ Settled settle(Stepper& stepper, const StopCriteria& criteria, int stride, const
                const Checkpoint* start) {
   const Units units = stepper.world().units();
   const double dt = stepper.dt() / units.time;
-  const double energy_limit = criteria.kinetic_energy * units.energy() * std::max(1, stepper.world().size());
+  const double energy_limit =
+      criteria.kinetic_energy * units.energy() * std::max(1, stepper.world().free_size());
   const StepperReport before = start ? start->report : StepperReport{};
   const auto all_steps = static_cast<std::int64_t>(std::ceil(criteria.time_limit / dt));
   const auto per_check = dt * stride;
@@ -109,7 +110,7 @@ Settled settle(Stepper& stepper, const StopCriteria& criteria, int stride, const
       const std::vector<ContactState> contacts = stepper.forces();
       const std::string details =
           fmt::format("t = {:.2f}, kinetic energy {:.1e}, {} contacts, residual {:.1e}", result.time,
-                      energy / units.energy() / stepper.world().size(), contacts.size(),
+                      energy / units.energy() / stepper.world().free_size(), contacts.size(),
                       imbalance_of(stepper.world(), contacts).worst());
       if (!listener.progress({"simulate", steps, all_steps, details})) {
         checkpoint();
@@ -123,7 +124,7 @@ Settled settle(Stepper& stepper, const StopCriteria& criteria, int stride, const
   }
   result.report = sum(before, stepper.report());
   result.kinetic_energy =
-      stepper.world().kinetic_energy() / units.energy() / std::max(1, stepper.world().size());
+      stepper.world().kinetic_energy() / units.energy() / std::max(1, stepper.world().free_size());
   const std::vector<ContactState> contacts = stepper.forces();
   result.report.contacts = static_cast<int>(contacts.size());
   result.residual = imbalance_of(stepper.world(), contacts).worst();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "libindet/base/error.h"
@@ -31,7 +32,10 @@ bool is_implicit(const MolecularDynamicsOptions& options) {
 
 double explicit_step(const World& world, const MolecularDynamicsOptions& options, const Units& units) {
   const double stable = largest_explicit_step(world, law_of(options, units)) / units.time;
-  const double lightest = *std::min_element(world.mass.begin(), world.mass.end()) / units.mass;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < world.size(); ++i) {
+    if (!world.fixed[i]) lightest = std::min(lightest, world.mass[i] / units.mass);
+  }
   const double collision = std::numbers::pi * std::sqrt(lightest / (2 * options.k));
   return std::min(stable / 2, collision / kStepsPerCollision);
 }
@@ -93,7 +97,7 @@ Reason spring_defect(const World& world, const MolecularDynamicsOptions& md) {
 }  // namespace
 
 std::optional<std::string> SimulationOptions::defect(const World& world) const {
-  if (world.size() == 0) return "there are no disks";
+  if (world.free_size() == 0) return "there are no disks that can move";
   if (!(time_limit > 0)) return fmt::format("the time limit must be positive, but is {}", time_limit);
   if (!(kinetic_energy >= 0) || calm_steps < 0) return "the static criterion must not be negative";
   return simulator == Simulator::kContactDynamics ? rigid_defect(contact_dynamics)

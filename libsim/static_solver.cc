@@ -18,6 +18,10 @@ std::vector<SolverBody> free_bodies(const Packing& packing) {
   for (int i = 0; i < packing.disk_count(); ++i) {
     const Disk& disk = packing[DiskId(i)];
     const Vector3 wrench = packing.wrench(DiskId(i));
+    if (disk.fixed) {
+      bodies.push_back({});
+      continue;
+    }
     bodies.push_back({.vx = wrench.x() / disk.mass,
                       .vy = wrench.y() / disk.mass,
                       .s = disk.radius * wrench.z() / disk.inertia});
@@ -32,16 +36,18 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
   c.nx = contact.normal.x();
   c.ny = contact.normal.y();
   c.mu = contact.mu;
-  const Disk& a = packing[contact.a];
-  c.inverse_mass_a = 1 / a.mass;
-  c.inverse_spin_a = a.radius * a.radius / a.inertia;
-  if (contact.b.is_wall()) {
-    c.b = packing.disk_count();
-  } else {
-    c.b = contact.b.disk_id().value();
+  if (packing.has_equations(contact.a)) {
+    const Disk& a = packing[contact.a];
+    c.inverse_mass_a = 1 / a.mass;
+    c.inverse_spin_a = a.radius * a.radius / a.inertia;
+    c.arm_a = packing.lever_a(contact) / a.radius;
+  }
+  c.b = contact.b.is_wall() ? packing.disk_count() : contact.b.disk_id().value();
+  if (packing.has_equations(contact.b)) {
     const Disk& b = packing[contact.b.disk_id()];
     c.inverse_mass_b = 1 / b.mass;
     c.inverse_spin_b = b.radius * b.radius / b.inertia;
+    c.arm_b = packing.lever_b(contact) / b.radius;
   }
   c.prepare();
   return c;

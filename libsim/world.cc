@@ -14,9 +14,10 @@ void World::add(const Disk& disk) {
   x.push_back(disk.position.x());
   y.push_back(disk.position.y());
   angle.push_back(disk.angle);
-  vx.push_back(disk.velocity.x());
-  vy.push_back(disk.velocity.y());
-  omega.push_back(disk.angular_velocity);
+  vx.push_back(disk.fixed ? 0 : disk.velocity.x());
+  vy.push_back(disk.fixed ? 0 : disk.velocity.y());
+  omega.push_back(disk.fixed ? 0 : disk.angular_velocity);
+  fixed.push_back(disk.fixed ? 1 : 0);
   radius.push_back(disk.radius);
   mass.push_back(disk.mass);
   inertia.push_back(disk.inertia);
@@ -25,16 +26,38 @@ void World::add(const Disk& disk) {
   load_torque.push_back(disk.load.z());
 }
 
+int World::free_size() const { return static_cast<int>(std::count(fixed.begin(), fixed.end(), 0)); }
+
+Levers World::levers_of(int a, int b) const {
+  const auto found = levers.find({a, b});
+  return found == levers.end() ? Levers{} : found->second;
+}
+
+Arms World::arms_of(int a, int b) const {
+  const Levers found = levers_of(a, b);
+  return {std::isnan(found.a) ? 1 : found.a / radius[a], std::isnan(found.b) ? 1 : found.b / radius[b]};
+}
+
+double World::largest_arm() const {
+  double largest = 1;
+  for (const auto& [bodies, lengths] : levers) {
+    const Arms arms = arms_of(bodies.first, bodies.second);
+    largest = std::max({largest, arms.a, arms.b});
+  }
+  return largest;
+}
+
 Units World::units() const {
   Units units;
-  if (x.empty()) return units;
   double total = 0;
   double largest = 0;
   for (int i = 0; i < size(); ++i) {
-    total += mass[i];
     largest = std::max(largest, radius[i]);
+    if (fixed[i]) continue;
+    total += mass[i];
   }
-  units.mass = total / size();
+  if (free_size() == 0) return units;
+  units.mass = total / free_size();
   units.length = largest;
   units.force = named_force_unit > 0 ? named_force_unit : gravity.norm() * units.mass;
   if (!(units.force > 0)) {
@@ -69,6 +92,17 @@ void World::bring_to_rest() {
 World world_of(const Packing& packing, const Friction& friction) {
   World world;
   for (const Disk& disk : packing.disks) world.add(disk);
+  for (const Contact& contact : packing.contacts) {
+    int a = contact.a.value();
+    int b = contact.b.code();
+    Levers levers{contact.lever_a, contact.lever_b};
+    if (std::isnan(levers.a) && std::isnan(levers.b)) continue;
+    if (b >= 0 && b < a) {
+      std::swap(a, b);
+      std::swap(levers.a, levers.b);
+    }
+    world.levers[{a, b}] = levers;
+  }
   world.walls = packing.walls;
   world.gravity = packing.gravity;
   world.friction = friction;
@@ -108,7 +142,8 @@ Packing packing_of(const World& world, const std::vector<ContactState>& contacts
                                  .angle = world.angle[i],
                                  .velocity = {world.vx[i], world.vy[i]},
                                  .angular_velocity = world.omega[i],
-                                 .load = {world.load_x[i], world.load_y[i], world.load_torque[i]}});
+                                 .load = {world.load_x[i], world.load_y[i], world.load_torque[i]},
+                                 .fixed = world.fixed[i] != 0});
   }
   for (const ContactState& state : contacts) {
     Contact contact;
@@ -119,6 +154,9 @@ Packing packing_of(const World& world, const std::vector<ContactState>& contacts
     contact.mu = state.mu;
     contact.R = state.R;
     contact.T = state.T;
+    const Levers levers = world.levers_of(state.a, state.b);
+    contact.lever_a = levers.a;
+    contact.lever_b = levers.b;
     packing.contacts.push_back(contact);
   }
   return packing;
@@ -128,6 +166,7 @@ Imbalance imbalance_of(const World& world, const std::vector<ContactState>& cont
   const int n = world.size();
   std::vector<double> fx(n), fy(n), torque(n);
   for (int i = 0; i < n; ++i) {
+    if (world.fixed[i]) continue;
     fx[i] = world.mass[i] * world.gravity.x() + world.load_x[i];
     fy[i] = world.mass[i] * world.gravity.y() + world.load_y[i];
     torque[i] = world.load_torque[i] / world.radius[i];
@@ -135,14 +174,15 @@ Imbalance imbalance_of(const World& world, const std::vector<ContactState>& cont
   for (const ContactState& c : contacts) {
     const double x = c.R * c.nx + c.T * c.ny;
     const double y = c.R * c.ny - c.T * c.nx;
-    fx[c.a] += x;
-    fy[c.a] += y;
-    torque[c.a] += c.T;
-    if (c.b >= 0) {
-      fx[c.b] -= x;
-      fy[c.b] -= y;
-      torque[c.b] += c.T;
-    }
+    const Arms arms = world.levers.empty() ? Arms{} : world.arms_of(c.a, c.b);
+    const auto add = [&](int disk, double side, double arm) {
+      if (world.fixed[disk]) return;
+      fx[disk] += side * x;
+      fy[disk] += side * y;
+      torque[disk] += arm * c.T;
+    };
+    add(c.a, 1, arms.a);
+    if (c.b >= 0) add(c.b, -1, arms.b);
   }
   const double unit = world.units().force;
   Imbalance result;

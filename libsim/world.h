@@ -1,12 +1,27 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "libindet/packing/packing.h"
 
 namespace indet::sim {
+
+/// The lever arms of the two bodies of a contact; NaN: the radius.
+struct Levers {
+  double a = std::numeric_limits<double>::quiet_NaN();
+  double b = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Levers over the radius: what a tangential force adds to the torques, which are divided by the radius.
+struct Arms {
+  double a = 1, b = 1;
+  bool operator==(const Arms&) const = default;
+};
 
 /// Coulomb coefficients of a scene.
 struct Friction {
@@ -15,8 +30,8 @@ struct Friction {
   bool any() const { return disk > 0 || wall > 0; }
 };
 
-/// Units in which options and criteria of the simulators are given: the mean mass m of a disk, r_max, and the
-/// packing's unit of force (mg), from which √(m r_max / mg) = √(r_max/g) is the unit of time.
+/// Units in which options and criteria of the simulators are given: the mean mass m of a free disk, r_max,
+/// and the packing's unit of force (mg), from which √(m r_max / mg) = √(r_max/g) is the unit of time.
 struct Units {
   double mass = 1;
   double length = 1;
@@ -29,13 +44,17 @@ struct Units {
 };
 
 /// What is simulated: disks as flat arrays (the hot loops read them), walls, gravity and friction. All arrays
-/// have one entry a disk.
+/// have one entry a disk. Contacts have levers of the length of the radius, but for those between bodies that
+/// `levers` names: a packing whose contacts have others keeps them for as long as the same two bodies touch.
 struct World {
   std::vector<std::int32_t> id;
   std::vector<double> x, y, angle;
   std::vector<double> vx, vy, omega;
   std::vector<double> radius, mass, inertia;
   std::vector<double> load_x, load_y, load_torque;  ///< External wrench beside gravity.
+  std::vector<char> fixed;                          ///< 1: does not move, whatever acts on it.
+  /// By the bodies of a contact, as in ContactState, a < b for two disks.
+  std::map<std::pair<int, int>, Levers> levers;
   std::vector<Wall> walls;
   Vector2 gravity{0, 0};
   Friction friction;
@@ -43,6 +62,11 @@ struct World {
 
   int size() const { return static_cast<int>(x.size()); }
   void add(const Disk& disk);
+  int free_size() const;  ///< Disks that are not fixed.
+
+  Levers levers_of(int a, int b) const;  ///< Of a contact.
+  Arms arms_of(int a, int b) const;
+  double largest_arm() const;  ///< Of all contacts, at least 1.
 
   Units units() const;
   double kinetic_energy() const;
@@ -69,7 +93,7 @@ struct ContactState {
   bool operator==(const ContactState&) const = default;
 };
 
-/// Disks, walls and gravity of a packing; friction is `friction`.
+/// Disks, walls, levers and gravity of a packing; friction is `friction`. Fixed disks are at rest.
 World world_of(const Packing& packing, const Friction& friction);
 
 /// Friction coefficients that somebody asks for; what is empty is left to the packing.

@@ -5,14 +5,17 @@
 namespace indet {
 namespace {
 
-Contact contact_of(const sim::ContactState& state) {
+Contact contact_of(const sim::ContactState& state, const sim::World& world) {
+  const sim::Levers levers = world.levers_of(state.a, state.b);
   return {.a = DiskId(state.a),
           .b = Body::from_code(state.b),
           .normal = {state.nx, state.ny},
           .gap = state.gap,
           .mu = state.mu,
           .R = state.R,
-          .T = state.T};
+          .T = state.T,
+          .lever_a = levers.a,
+          .lever_b = levers.b};
 }
 
 const char* name_of(sim::Damping damping) {
@@ -68,7 +71,8 @@ TrajectoryFrame frame_of(const sim::Frame& frame, const sim::World& world) {
   }
   result.angles = frame.angle;
   result.angular_velocities = frame.omega;
-  for (const sim::ContactState& contact : frame.contacts) result.contacts.push_back(contact_of(contact));
+  for (const sim::ContactState& contact : frame.contacts)
+    result.contacts.push_back(contact_of(contact, world));
   return result;
 }
 
@@ -91,9 +95,10 @@ StoredCheckpoint stored(const sim::Checkpoint& checkpoint, const std::string& fi
   return result;
 }
 
-sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::Friction& friction) {
+sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::World& start) {
   sim::Checkpoint result;
-  result.world = sim::world_of(checkpoint.state, friction);
+  result.world = sim::world_of(checkpoint.state, start.friction);
+  result.world.levers = start.levers;
   for (std::size_t i = 0; i < checkpoint.state.contacts.size(); ++i) {
     const Contact& contact = checkpoint.state.contacts[i];
     result.contacts.push_back({.a = contact.a.value(),

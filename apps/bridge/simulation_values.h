@@ -16,8 +16,9 @@ TrajectoryFrame frame_of(const sim::Frame& frame, const sim::World& world);
 
 StoredCheckpoint stored(const sim::Checkpoint& checkpoint, const std::string& fingerprint,
                         const Trajectory& trajectory);
-/// Friction is not part of a packing without contacts, so it comes from the options.
-sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::Friction& friction);
+/// Friction and levers of pairs that do not touch are not part of a packing, so they come from the start of
+/// the run.
+sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::World& start);
 
 /// Every option that the outcome depends on, as TOML.
 std::string to_toml(const sim::SimulationOptions& options);

@@ -99,6 +99,19 @@ void Canvas::disk(const Vector2& centre, double radius, const Colour& fill, cons
   cairo_stroke(cairo);
 }
 
+void Canvas::hatch(const Vector2& centre, double radius, const Colour& colour, double thickness) {
+  constexpr double kDistance = 3.5;  // of the lines, points
+  const int lines = std::max(1, static_cast<int>(2 * radius / kDistance) - 1);
+  const Vector2 along(std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2);
+  const Vector2 across(-along.y(), along.x());
+  for (int i = 1; i <= lines; ++i) {
+    const double offset = radius * (2.0 * i / (lines + 1) - 1);
+    const double half = std::sqrt(radius * radius - offset * offset);
+    const Vector2 middle = centre + offset * across;
+    line(middle - half * along, middle + half * along, thickness, colour, false, false);
+  }
+}
+
 void Canvas::line(const Vector2& from, const Vector2& to, double thickness, const Colour& colour, bool dashed,
                   bool round) {
   cairo_t* cairo = state_->cairo.get();

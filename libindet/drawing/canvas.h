@@ -22,6 +22,8 @@ class Canvas {
 
   void disk(const Vector2& centre, double radius, const Colour& fill, const Colour& outline,
             double thickness);
+  /// Slanted lines across a disk.
+  void hatch(const Vector2& centre, double radius, const Colour& colour, double thickness);
   void line(const Vector2& from, const Vector2& to, double thickness, const Colour& colour,
             bool dashed = false, bool round = true);
   void polygon(const std::vector<Vector2>& corners, const Colour& fill);

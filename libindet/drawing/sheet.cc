@@ -44,10 +44,7 @@ Vector2 Sheet::place(const Vector2& point) const {
   return {left_ + (point.x() - low_.x()) * scale_, kMargin + (high_.y() - point.y()) * scale_};
 }
 
-Vector2 Sheet::contact_point(const Contact& contact) const {
-  const Disk& disk = packing_[contact.a];
-  return place(disk.position - disk.radius * contact.normal);
-}
+Vector2 Sheet::contact_point(const Contact& contact) const { return place(packing_.contact_point(contact)); }
 
 void Sheet::draw_bodies() {
   const std::vector<Vector2> view = {low_, {high_.x(), low_.y()}, high_, {low_.x(), high_.y()}};
@@ -60,8 +57,11 @@ void Sheet::draw_bodies() {
     canvas_->polygon(behind, palette::kWallFill);
   }
   for (const Disk& disk : packing_.disks) {
+    const double thickness = std::min(0.5, 0.1 * disk.radius * scale_);
     canvas_->disk(place(disk.position), disk.radius * scale_, palette::kDiskFill, palette::kDiskOutline,
-                  std::min(0.5, 0.1 * disk.radius * scale_));
+                  thickness);
+    if (disk.fixed)
+      canvas_->hatch(place(disk.position), disk.radius * scale_, palette::kDiskOutline, thickness);
   }
   draw_wall_lines(domain);
 }

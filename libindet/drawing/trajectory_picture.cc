@@ -51,14 +51,15 @@ class View {
       const double r = packing_.disks[i].radius * scale_;
       const double angle = frame.angles[i];
       fmt::format_to(
-          out, "<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}'/><path d='M{:.2f} {:.2f}l{:.2f} {:.2f}'/>\n",
-          centre.x(), centre.y(), r, centre.x(), centre.y(), r * std::cos(angle), -r * std::sin(angle));
+          out, "<circle {}cx='{:.2f}' cy='{:.2f}' r='{:.2f}'/><path d='M{:.2f} {:.2f}l{:.2f} {:.2f}'/>\n",
+          packing_.disks[i].fixed ? "class='x' " : "", centre.x(), centre.y(), r, centre.x(), centre.y(),
+          r * std::cos(angle), -r * std::sin(angle));
     }
     if (!(largest_ > 0)) return;
     for (const Contact& contact : frame.contacts) {
       const Vector2& a = frame.positions[static_cast<std::size_t>(contact.a.value())];
       const Vector2 b = contact.b.is_wall()
-                            ? Vector2(a - packing_[contact.a].radius * contact.normal)
+                            ? Vector2(a - packing_.lever_a(contact) * contact.normal)
                             : frame.positions[static_cast<std::size_t>(contact.b.disk_id().value())];
       const Vector2 from = place(a);
       const Vector2 to = place(b);
@@ -92,6 +93,13 @@ class View {
   double largest_ = 0;
 };
 
+/// The hatching of fixed disks, where there are any.
+std::string hatching(const Packing& packing) {
+  if (packing.free_disk_count() == packing.disk_count()) return "";
+  return "<defs><pattern id='h' width='3' height='3' patternUnits='userSpaceOnUse' "
+         "patternTransform='rotate(45)'><path d='M0 0v3'/></pattern></defs><style>.x{fill:url(#h)}</style>\n";
+}
+
 std::string head(double width, double height) {
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.2f}' height='{1:.2f}' viewBox='0 0 {0:.2f} "
@@ -123,6 +131,7 @@ void draw_trajectory_strip(const std::filesystem::path& path, const Packing& pac
   const View view(packing, trajectory);
   const int count = std::min(frames, static_cast<int>(trajectory.size()));
   std::string svg = head(kGap + count * (view.width() + kGap), view.height() + 2 * kGap + 2 * kText);
+  svg += hatching(packing);
   for (int i = 0; i < count; ++i) {
     const std::size_t at = count == 1 ? trajectory.size() - 1
                                       : static_cast<std::size_t>(i) * (trajectory.size() - 1) /
@@ -136,6 +145,7 @@ void draw_trajectory_animation(const std::filesystem::path& path, const Packing&
                                const Trajectory& trajectory, double seconds) {
   const View view(packing, trajectory);
   std::string svg = head(2 * kGap + view.width(), view.height() + 2 * kGap + 2 * kText);
+  svg += hatching(packing);
   const auto count = static_cast<double>(trajectory.size());
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     const double begin = static_cast<double>(i) / count;

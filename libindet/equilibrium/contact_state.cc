@@ -18,11 +18,13 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(c
     const Contact& contact = packing[ContactId(i)];
     const double tangential = forces.value()[2 * i + 1] / unit;
     const Vector2 force = forces.value()[2 * i] / unit * contact.normal + tangential * contact.tangent();
-    const Vector3 on_a(force.x(), force.y(), tangential);
-    residual.row(contact.a.value()) += on_a.transpose();
-    if (!contact.b.is_wall()) {
-      residual.row(contact.b.disk_id().value()) += Vector3(-force.x(), -force.y(), tangential).transpose();
-    }
+    const auto add = [&](DiskId disk, double side, double lever) {
+      if (!packing.has_equations(disk)) return;
+      const double torque = tangential * (lever / packing[disk].radius);
+      residual.row(disk.value()) += Vector3(side * force.x(), side * force.y(), torque).transpose();
+    };
+    add(contact.a, 1, packing.lever_a(ContactId(i)));
+    if (!contact.b.is_wall()) add(contact.b.disk_id(), -1, packing.lever_b(ContactId(i)));
   }
   return residual;
 }

@@ -7,7 +7,7 @@
 namespace indet {
 
 /// The residual of equilibrium of each disk, computed contact by contact from the packing (not from a
-/// matrix): force x, force y, torque/r in mg, [N, 3]. `forces`: 2M.
+/// matrix): force x, force y, torque/r in mg, a row a disk; 0 for fixed disks. `forces`: 2M.
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(const Packing& packing,
                                                                                const SceneForces& forces);
 

@@ -44,6 +44,7 @@ class RowNumbering {
       : numbers_(packing.disks.size(), {-1, -1, -1}) {
     std::vector<std::array<bool, 3>> needed(packing.disks.size(), {false, false, false});
     const auto touch = [&](DiskId disk, bool turns) {
+      if (!packing.has_equations(disk)) return;
       auto& components = needed[static_cast<std::size_t>(disk.value())];
       components[0] = components[1] = true;
       components[2] = components[2] || turns;
@@ -83,16 +84,16 @@ class RowNumbering {
 
 /// Adds the column of the force (R, T) of one contact: c_iα [15] times (R, T), torque rows divided by the
 /// radius.
-void add_column(const RowNumbering& number, const Contact& contact, double R, double T, int column,
-                Triplets& out) {
+void add_column(const RowNumbering& number, const Contact& contact, const ContactEnds& ends, double R,
+                double T, int column, Triplets& out) {
   const Vector2 force = R * contact.normal + T * contact.tangent();
-  const auto add = [&](DiskId disk, double sign) {
+  const auto add = [&](DiskId disk, double sign, double arm) {
     out.emplace_back(number(disk, 0), column, sign * force.x());
     out.emplace_back(number(disk, 1), column, sign * force.y());
-    if (T != 0) out.emplace_back(number(disk, 2), column, T);
+    if (T != 0) out.emplace_back(number(disk, 2), column, T * arm);
   };
-  add(contact.a, 1);
-  if (!contact.b.is_wall()) add(contact.b.disk_id(), -1);
+  if (ends.a >= 0) add(contact.a, 1, ends.arm_a);
+  if (ends.b >= 0) add(contact.b.disk_id(), -1, ends.arm_b);
 }
 
 /// The edges, and what follows from them and the modes alone: to_edges, edge_forces.
@@ -181,6 +182,9 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
       ends.a = number(contact.a, 0);
       if (!contact.b.is_wall()) ends.b = number(contact.b.disk_id(), 0);
     }
+    ends.arm_a = packing.lever_a(ContactId(i)) / packing[contact.a].radius;
+    if (!contact.b.is_wall())
+      ends.arm_b = packing.lever_b(ContactId(i)) / packing[contact.b.disk_id()].radius;
     problem.contacts.push_back(ends);
   }
   describe_unknowns(problem);
@@ -190,12 +194,13 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   for (int column = 0; column < static_cast<int>(problem.edges.size()); ++column) {
     const Edge& edge = problem.edges[static_cast<std::size_t>(column)];
     const Contact& contact = packing[edge.contact];
-    add_column(number, contact, edge.R, edge.T, column, edge_matrix);
+    const ContactEnds& ends = problem.contacts[static_cast<std::size_t>(edge.contact.value())];
+    add_column(number, contact, ends, edge.R, edge.T, column, edge_matrix);
     if (problem.is_stick(edge)) {
       const bool is_normal = edge.sign > 0;
-      add_column(number, contact, is_normal ? 1 : 0, is_normal ? 0 : 1, column, matrix);
+      add_column(number, contact, ends, is_normal ? 1 : 0, is_normal ? 0 : 1, column, matrix);
     } else {
-      add_column(number, contact, edge.R, edge.T, column, matrix);
+      add_column(number, contact, ends, edge.R, edge.T, column, matrix);
     }
   }
   const int equations = static_cast<int>(problem.rows.size());

@@ -47,6 +47,7 @@ struct ContactEnds {
   Vector2 normal{0, 0};  ///< n̂
   double mu = 0;
   int a = -1, b = -1;  ///< the equation of force x of each body; force y is the next. −1: it has none.
+  double arm_a = 1, arm_b = 1;  ///< l/r of each body: what T adds to its torque equation
 
   /// t̂ = n̂ × ẑ [10].
   Vector2 tangent() const { return {normal.y(), -normal.x()}; }
@@ -58,8 +59,9 @@ struct ContactEnds {
 ///     find F with   A F = b,   F in K
 ///
 /// Paper: cF = −w [5, 15]. Torque equations are divided by the disk's radius; the coefficients are then n̂, t̂
-/// and 1, whatever the scale of the scene. A disk whose contacts are all frictionless has no torque equation
-/// (unless a torque acts on it); a disk with neither contact nor load has none.
+/// and l/r, whatever the scale of the scene: 1, unless the contact has another lever arm l. A disk whose
+/// contacts are all frictionless has no torque equation (unless a torque acts on it); a fixed disk, and one
+/// with neither contact nor load, has none.
 ///
 /// Columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or nothing
 /// (kOpen):   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).

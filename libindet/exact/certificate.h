@@ -9,7 +9,8 @@
 
 namespace indet::exact {
 
-/// A virtual motion, one velocity a row (x, y, rω of each disk), over the rational numbers.
+/// A virtual motion, one velocity a row (x, y, and rω times its spin_scale of each disk), over the rational
+/// numbers.
 class Motion {
  public:
   /// The motion with no power at any of `still` edges, and none of the load if `against_load` is not set,

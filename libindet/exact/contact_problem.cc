@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -35,8 +36,8 @@ class RowNumbers {
  public:
   explicit RowNumbers(const Packing& packing) : numbers_(packing.disks.size(), {-1, -1, -1}) {
     for (const indet::Contact& contact : packing.contacts) {
-      touch(contact.a, contact.mu > 0);
-      if (!contact.b.is_wall()) touch(contact.b.disk_id(), contact.mu > 0);
+      if (packing.has_equations(contact.a)) touch(contact.a, contact.mu > 0);
+      if (packing.has_equations(contact.b)) touch(contact.b.disk_id(), contact.mu > 0);
     }
   }
   int operator()(DiskId disk, int component) const {
@@ -60,31 +61,54 @@ class RowNumbers {
   int count_ = 0;
 };
 
-/// The wrench of a disk, exactly; the torque divided by the radius.
-std::array<mpq_class, 3> exact_wrench(const Packing& packing, const Disk& disk) {
+/// The radius of each disk; where a contact has another lever, a power of two near it.
+std::vector<double> torque_divisors(const Packing& packing) {
+  std::vector<double> divisors;
+  for (const Disk& disk : packing.disks) divisors.push_back(disk.radius);
+  const auto see = [&](DiskId disk, double lever) {
+    const double radius = packing[disk].radius;
+    if (lever != radius)
+      divisors[static_cast<std::size_t>(disk.value())] = std::ldexp(1.0, std::ilogb(radius));
+  };
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const indet::Contact& contact = packing[ContactId(i)];
+    see(contact.a, packing.lever_a(ContactId(i)));
+    if (!contact.b.is_wall()) see(contact.b.disk_id(), packing.lever_b(ContactId(i)));
+  }
+  return divisors;
+}
+
+/// The wrench of a disk, exactly; the torque divided by `torque_divisor`.
+std::array<mpq_class, 3> exact_wrench(const Packing& packing, const Disk& disk, double torque_divisor) {
   std::array<mpq_class, 3> wrench;
+  if (disk.fixed) return wrench;
   const mpq_class mass(disk.mass);
   wrench[0] = mass * mpq_class(packing.gravity.x()) + mpq_class(disk.load.x());
   wrench[1] = mass * mpq_class(packing.gravity.y()) + mpq_class(disk.load.y());
-  wrench[2] = mpq_class(disk.load.z()) / mpq_class(disk.radius);
+  wrench[2] = mpq_class(disk.load.z()) / mpq_class(torque_divisor);
   return wrench;
 }
 
-/// R n̂ + T t̂ on a, the opposite on b, and T on both torques.
-Entries force_entries(const RowNumbers& number, const indet::Contact& contact, const mpq_class& R,
-                      const mpq_class& T) {
+/// The lever of each end over the divisor of its disk.
+struct Ends {
+  mpq_class arm_a, arm_b;
+};
+
+/// R n̂ + T t̂ on a, the opposite on b, and T times its arm on both torques.
+Entries force_entries(const Packing& packing, const RowNumbers& number, const indet::Contact& contact,
+                      const Ends& ends, const mpq_class& R, const mpq_class& T) {
   const mpq_class nx(contact.normal.x());
   const mpq_class ny(contact.normal.y());
   const mpq_class fx = R * nx + T * ny;
   const mpq_class fy = R * ny - T * nx;
   Entries entries;
-  const auto add = [&](DiskId disk, int sign) {
+  const auto add = [&](DiskId disk, int sign, const mpq_class& arm) {
     entries.emplace_back(number(disk, 0), sign * fx);
     entries.emplace_back(number(disk, 1), sign * fy);
-    if (T != 0) entries.emplace_back(number(disk, 2), T);
+    if (T != 0) entries.emplace_back(number(disk, 2), arm * T);
   };
-  add(contact.a, 1);
-  if (!contact.b.is_wall()) add(contact.b.disk_id(), -1);
+  if (packing.has_equations(contact.a)) add(contact.a, 1, ends.arm_a);
+  if (packing.has_equations(contact.b)) add(contact.b.disk_id(), -1, ends.arm_b);
   return entries;
 }
 
@@ -116,8 +140,11 @@ mpq_class scaled(const mpq_class& value, long power) {
 ContactProblem::ContactProblem(const Packing& packing) {
   RowNumbers number(packing);
   std::vector<std::pair<int, mpq_class>> wrench;
+  const std::vector<double> divisors = torque_divisors(packing);
+  const auto divisor = [&](DiskId disk) { return divisors[static_cast<std::size_t>(disk.value())]; };
   for (int i = 0; i < packing.disk_count(); ++i) {
-    const auto exact = exact_wrench(packing, packing[DiskId(i)]);
+    spin_scale_.push_back(divisor(DiskId(i)) / packing[DiskId(i)].radius);
+    const auto exact = exact_wrench(packing, packing[DiskId(i)], divisor(DiskId(i)));
     for (int k = 0; k < 3; ++k) {
       const mpq_class& value = exact[static_cast<std::size_t>(k)];
       if (value != 0) wrench.emplace_back(number.need(DiskId(i), k), value);
@@ -129,14 +156,23 @@ ContactProblem::ContactProblem(const Packing& packing) {
   for (const auto& [row, value] : wrench)
     load_[static_cast<std::size_t>(row)] = -value.get_num() * (load_scale_ / value.get_den());
 
-  for (const indet::Contact& contact : packing.contacts) {
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const indet::Contact& contact = packing[ContactId(i)];
+    Ends ends;
+    ends.arm_a = mpq_class(packing.lever_a(ContactId(i))) / mpq_class(divisor(contact.a));
+    if (!contact.b.is_wall()) {
+      ends.arm_b = mpq_class(packing.lever_b(ContactId(i))) / mpq_class(divisor(contact.b.disk_id()));
+    }
+    const auto column = [&](const mpq_class& R, const mpq_class& T) {
+      return integer_column(force_entries(packing, number, contact, ends, R, T));
+    };
     Contact exact;
     exact.mu = mpq_class(contact.mu);
-    exact.normal = integer_column(force_entries(number, contact, 1, 0));
+    exact.normal = column(1, 0);
     if (contact.mu > 0) {
-      exact.tangential = integer_column(force_entries(number, contact, 0, 1));
-      exact.plus = integer_column(force_entries(number, contact, 1, exact.mu));
-      exact.minus = integer_column(force_entries(number, contact, 1, -exact.mu));
+      exact.tangential = column(0, 1);
+      exact.plus = column(1, exact.mu);
+      exact.minus = column(1, -exact.mu);
     }
     contacts_.push_back(std::move(exact));
   }

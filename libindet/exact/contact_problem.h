@@ -12,12 +12,13 @@ namespace indet::exact {
 /// The equilibrium problem of a packing over the rational numbers, with the doubles of the packing taken as
 /// they are (docs/decisions/exact-problem.md):
 ///
-///   for each disk:  Σ χ (R n̂ + T t̂) + m g + load = 0,   Σ T + load_z / r = 0,   t̂ = (n_y, −n_x), χ = ±1
+///   for each free disk:  Σ χ (R n̂ + T t̂) + m g + load = 0,   Σ l T + load_z = 0,   t̂ = (n_y, −n_x), χ = ±1
 ///   for each contact:  R ≥ 0,  |T| ≤ μR
 ///
 /// n̂ is what is stored, also where its length is not exactly 1; products, sums and quotients are exact.
 /// Multiplying a row or an unknown by a number does not change this problem, so none of the scales of the
-/// analysis enters.
+/// analysis enters. Torque rows are divided by the radius; where a contact of the disk has a lever l ≠ r, by
+/// a power of two near the radius instead, so that all coefficients have finitely many binary digits.
 ///
 /// Unknowns are strengths of cone edges, R = x₊ + x₋, T = μ (x₊ − x₋), x ≥ 0. Edge 2α is x₊ of contact α (R
 /// itself where μ = 0), edge 2α + 1 is x₋ (absent where μ = 0): the numbers of the half-planes in
@@ -35,6 +36,9 @@ class ContactProblem {
   int row(DiskId disk, int component) const {
     return row_of_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
   }
+  /// What the torque row of a disk is divided by (its radius, or the power of two in its place), over its
+  /// radius. A motion has this times rω in that row.
+  double spin_scale(DiskId disk) const { return spin_scale_[static_cast<std::size_t>(disk.value())]; }
 
   /// The rank of the equations modulo a prime near 2^62. It is a lower bound of the exact rank, and equals it
   /// but for an accident of probability below 1e-12.
@@ -70,6 +74,7 @@ class ContactProblem {
   void find_independent_rows();
 
   std::vector<std::array<int, 3>> row_of_;
+  std::vector<double> spin_scale_;
   std::vector<Contact> contacts_;
   std::vector<mpz_class> load_;
   mpz_class load_scale_ = 1;

@@ -80,6 +80,14 @@ Scene read_scene(const fs::path& path) {
   return scene;
 }
 
+/// 0 or 1; empty: 0.
+bool flag(const Table& table, int row, const char* column) {
+  if (table.is_empty(row, column)) return false;
+  const double value = table.number(row, column);
+  if (value != 0 && value != 1) table.fail(row, column, fmt::format("must be 0 or 1, but is {}", value));
+  return value == 1;
+}
+
 /// The row of each id.
 using IdMap = std::unordered_map<std::int32_t, int>;
 
@@ -96,15 +104,16 @@ std::int32_t unique_id(const Table& table, int row, IdMap& ids) {
 
 std::vector<Disk> read_disks(const Table& table, IdMap& ids) {
   table.require({"id", "x", "y", "radius", "mass"});
-  table.allow_only(
-      {"id", "x", "y", "radius", "mass", "inertia", "angle", "vx", "vy", "omega", "fx", "fy", "torque"});
+  table.allow_only({"id", "x", "y", "radius", "mass", "inertia", "angle", "vx", "vy", "omega", "fx", "fy",
+                    "torque", "fixed"});
   std::vector<Disk> disks;
   for (int row = 0; row < table.rows(); ++row) {
     Disk disk;
     disk.id = unique_id(table, row, ids);
     disk.position = {table.number(row, "x"), table.number(row, "y")};
     disk.radius = table.number(row, "radius");
-    disk.mass = table.number(row, "mass");
+    disk.fixed = flag(table, row, "fixed");
+    disk.mass = disk.fixed ? table.number_or(row, "mass", 0) : table.number(row, "mass");
     disk.inertia = table.number_or(row, "inertia", 0.5 * disk.mass * disk.radius * disk.radius);
     disk.angle = table.number_or(row, "angle", 0);
     disk.velocity = {table.number_or(row, "vx", 0), table.number_or(row, "vy", 0)};
@@ -163,11 +172,17 @@ double read_friction(const Table& table, int row, const Scene& scene) {
   return *scene.mu;
 }
 
-std::vector<Contact> read_contacts(const Table& table, const Packing& packing, const IdMap& disks,
-                                   const IdMap& walls, const Scene& scene) {
-  table.require({"a", "b"});
-  table.allow_only({"a", "b", "nx", "ny", "mu", "R", "T", "gap"});
+/// The contacts that have equations, and the row of each.
+struct ContactRows {
   std::vector<Contact> contacts;
+  std::vector<int> rows;
+};
+
+ContactRows read_contacts(const Table& table, const Packing& packing, const IdMap& disks, const IdMap& walls,
+                          const Scene& scene) {
+  table.require({"a", "b"});
+  table.allow_only({"a", "b", "nx", "ny", "mu", "R", "T", "gap", "lever_a", "lever_b"});
+  ContactRows result;
   std::map<std::pair<std::int32_t, std::int32_t>, int> rows;
   for (int row = 0; row < table.rows(); ++row) {
     Contact contact;
@@ -192,9 +207,13 @@ std::vector<Contact> read_contacts(const Table& table, const Packing& packing, c
     contact.mu = read_friction(table, row, scene);
     contact.R = table.number_or(row, "R", kNaN);
     contact.T = table.number_or(row, "T", kNaN);
-    contacts.push_back(contact);
+    contact.lever_a = table.number_or(row, "lever_a", kNaN);
+    contact.lever_b = table.number_or(row, "lever_b", kNaN);
+    if (!packing.has_equations(contact.a) && !packing.has_equations(contact.b)) continue;
+    result.contacts.push_back(contact);
+    result.rows.push_back(row);
   }
-  return contacts;
+  return result;
 }
 
 /// Printed normals are rounded; within the tolerance that validation allows, the length is 1 by definition. A
@@ -203,10 +222,13 @@ void set_unit_length(Vector2& normal) {
   if (std::abs(normal.squaredNorm() - 1) > 4 * std::numeric_limits<double>::epsilon()) normal.normalize();
 }
 
-/// Throws the first defect of `packing` with the file and line that it comes from.
-void fail_at_defect(const Packing& packing, PackingPart part, const Table& table) {
+/// Throws the first defect of `packing` with the file and line that it comes from. `rows`: the row of each
+/// part; empty where part i is row i.
+void fail_at_defect(const Packing& packing, PackingPart part, const Table& table,
+                    const std::vector<int>& rows = {}) {
   const auto defect = find_defect(packing);
-  if (defect && defect->part == part) table.fail(defect->index, defect->reason);
+  if (!defect || defect->part != part) return;
+  table.fail(rows.empty() ? defect->index : rows[static_cast<std::size_t>(defect->index)], defect->reason);
 }
 
 }  // namespace
@@ -235,8 +257,10 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
     fail_at_defect(packing, PackingPart::kWall, walls);
   }
   const Table contacts = read_csv(folder / "contacts.csv");
-  packing.contacts = read_contacts(contacts, packing, disk_ids, wall_ids, scene);
-  fail_at_defect(packing, PackingPart::kContact, contacts);
+  ContactRows kept = read_contacts(contacts, packing, disk_ids, wall_ids, scene);
+  imported.without_equations = contacts.rows() - static_cast<int>(kept.rows.size());
+  packing.contacts = std::move(kept.contacts);
+  fail_at_defect(packing, PackingPart::kContact, contacts, kept.rows);
   validate(packing, scene.source);
   for (Wall& wall : packing.walls) set_unit_length(wall.normal);
   for (Contact& contact : packing.contacts) set_unit_length(contact.normal);

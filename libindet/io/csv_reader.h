@@ -8,15 +8,16 @@ namespace indet {
 
 /// Reads a scene of up to four files in one folder (docs/importing.md):
 ///
-///   disks.csv     id, x, y, radius, mass          [inertia, angle, vx, vy, omega, fx, fy, torque]
+///   disks.csv     id, x, y, radius, mass          [inertia, angle, vx, vy, omega, fx, fy, torque, fixed]
 ///   walls.csv     id, px, py, nx, ny              [name]          no file: no walls
-///   contacts.csv  a, b                            [nx, ny, mu, R, T, gap]
+///   contacts.csv  a, b                            [nx, ny, mu, R, T, gap, lever_a, lever_b]
 ///   scene.toml    gravity = [0, -1], force_unit, mu               no file: gravity (0, −1)
 ///
 /// Columns in brackets are optional, and their fields may be empty: inertia is then m r²/2, the normal and
-/// the gap follow from the positions, mu is that of scene.toml, R and T are unknown, the rest is 0. Disks are
-/// named by any non-negative integers; b = −(w + 1) is the wall with id w. The result is validated; throws
-/// InputError that names file, line and reason.
+/// the gap follow from the positions, mu is that of scene.toml, R and T are unknown, levers are the radius,
+/// the rest is 0, the mass of a fixed disk too. Disks are named by any non-negative integers; b = −(w + 1) is
+/// the wall with id w. Contacts between two bodies without equations are left out and counted. The result is
+/// validated; throws InputError that names file, line and reason.
 ImportedPacking read_csv_scene(const std::filesystem::path& folder);
 
 }  // namespace indet

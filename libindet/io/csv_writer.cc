@@ -17,11 +17,14 @@
 namespace indet {
 namespace {
 
-constexpr std::string_view kDisksBegin = "id,x,y,radius,mass,inertia,angle,vx,vy,omega,fx,fy,torque\n";
-constexpr std::string_view kWallsBegin = "id,px,py,nx,ny,name\n";
-constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap\n";
+// Headers, and what may follow them where a packing has it.
+constexpr std::string_view kDisksBegin = "id,x,y,radius,mass,inertia,angle,vx,vy,omega,fx,fy,torque";
+constexpr std::string_view kFixedColumn = ",fixed";
+constexpr std::string_view kWallsBegin = "id,px,py,nx,ny,name";
+constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap";
+constexpr std::string_view kLeverColumns = ",lever_a,lever_b";
 constexpr std::string_view kSceneBegin = "gravity = [";
-constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu,";
+constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu";
 
 /// The shortest text that reads back as the same number; empty for NaN.
 std::string field(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
@@ -58,19 +61,31 @@ struct FileIds {
   }
 };
 
+/// Adds the header and the columns that follow it.
+void begin_table(std::string& text, std::string_view header, bool has_more, std::string_view more) {
+  text += header;
+  if (has_more) text += more;
+  text += '\n';
+}
+
 std::string disks_text(const Packing& packing, const FileIds& ids) {
-  std::string text(kDisksBegin);
+  std::string text;
+  const bool has_fixed = packing.free_disk_count() < packing.disk_count();
+  begin_table(text, kDisksBegin, has_fixed, kFixedColumn);
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     const Disk& d = packing.disks[i];
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", ids.disks[i], d.position.x(),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", ids.disks[i], d.position.x(),
                         d.position.y(), d.radius, d.mass, d.inertia, d.angle, d.velocity.x(), d.velocity.y(),
                         d.angular_velocity, d.load.x(), d.load.y(), d.load.z());
+    if (has_fixed) text += d.fixed ? ",1" : ",0";
+    text += '\n';
   }
   return text;
 }
 
 std::string walls_text(const Packing& packing, const FileIds& ids) {
-  std::string text(kWallsBegin);
+  std::string text;
+  begin_table(text, kWallsBegin, false, {});
   for (std::size_t i = 0; i < packing.walls.size(); ++i) {
     const Wall& w = packing.walls[i];
     text += fmt::format("{},{},{},{},{},{}\n", ids.walls[i], w.point.x(), w.point.y(), w.normal.x(),
@@ -81,11 +96,15 @@ std::string walls_text(const Packing& packing, const FileIds& ids) {
 
 std::string contacts_text(const Packing& packing, const FileIds& ids,
                           const Eigen::Ref<const Eigen::VectorXd>& forces) {
-  std::string text(kContactsBegin);
+  std::string text;
+  const bool has_levers = packing.has_levers();
+  begin_table(text, kContactsBegin, has_levers, kLeverColumns);
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& c = packing[ContactId(i)];
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", ids.of(c.a), ids.of(c.b), c.normal.x(), c.normal.y(),
-                        c.mu, field(forces[2 * i]), field(forces[2 * i + 1]), c.gap);
+    text += fmt::format("{},{},{},{},{},{},{},{}", ids.of(c.a), ids.of(c.b), c.normal.x(), c.normal.y(), c.mu,
+                        field(forces[2 * i]), field(forces[2 * i + 1]), c.gap);
+    if (has_levers) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+    text += '\n';
   }
   return text;
 }
@@ -148,7 +167,10 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
   const double mg = packing.force_unit();
   const std::vector<RangeColumn> columns =
       ranges != nullptr ? range_columns(*ranges, mg) : std::vector<RangeColumn>{};
-  std::string text = std::string(kTableBegin) + "R_mg,T_mg";
+  const bool has_levers = packing.has_levers();
+  std::string text(kTableBegin);
+  if (has_levers) text += kLeverColumns;
+  text += ",R_mg,T_mg";
   for (const RangeColumn& column : columns) {
     text += "," + column.name;
     if (column.end) text += fmt::format(",{}_outcome", to_string(*column.end));
@@ -156,10 +178,11 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
   text += "\n";
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& c = packing[ContactId(i)];
-    const Vector2 point = packing[c.a].position - packing[c.a].radius * c.normal;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
-                        c.normal.x(), c.normal.y(), c.gap, c.mu, field(forces[2 * i] / mg),
-                        field(forces[2 * i + 1] / mg));
+    const Vector2 point = packing.contact_point(c);
+    text += fmt::format("{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
+                        c.normal.x(), c.normal.y(), c.gap, c.mu);
+    if (has_levers) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+    text += fmt::format(",{},{}", field(forces[2 * i] / mg), field(forces[2 * i + 1] / mg));
     for (const RangeColumn& column : columns) {
       text += "," + field(column.values[i]);
       if (column.end) text += fmt::format(",{}", to_string(ranges->outcome(i, *column.end)));
@@ -170,7 +193,13 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
 }
 
 bool is_scene_table(std::string_view text) {
-  if (text.starts_with(kDisksBegin) || text.starts_with(kWallsBegin) || text.starts_with(kContactsBegin))
+  const auto begins = [&](std::string_view header, std::string_view more) {
+    if (!text.starts_with(header)) return false;
+    std::string_view rest = text.substr(header.size());
+    if (!more.empty() && rest.starts_with(more)) rest.remove_prefix(more.size());
+    return rest.starts_with('\n');
+  };
+  if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, {}) || begins(kContactsBegin, kLeverColumns))
     return true;
   // One line, or two; whoever adds to them has a scene of their own.
   if (!text.starts_with(kSceneBegin)) return false;
@@ -178,6 +207,10 @@ bool is_scene_table(std::string_view text) {
   return rest.empty() || (rest.starts_with("force_unit = ") && rest.find('\n') + 1 == rest.size());
 }
 
-bool is_contact_table(std::string_view text) { return text.starts_with(kTableBegin); }
+bool is_contact_table(std::string_view text) {
+  if (!text.starts_with(kTableBegin)) return false;
+  const std::string_view rest = text.substr(kTableBegin.size());
+  return rest.starts_with(",R_mg,") || rest.starts_with(std::string(kLeverColumns) + ",R_mg,");
+}
 
 }  // namespace indet

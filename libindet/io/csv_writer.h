@@ -21,7 +21,8 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
                      const Eigen::Ref<const Eigen::VectorXd>& forces);
 
 /// One table with a row a contact, for spreadsheets and pandas: contact (its row, from 0), a, b (as in
-/// contacts.csv), x, y (contact point), nx, ny, gap, mu, R_mg, T_mg, and if there are `ranges` (else null)
+/// contacts.csv), x, y (contact point), nx, ny, gap, mu, lever_a, lever_b (where some contact has one), R_mg,
+/// T_mg, and if there are `ranges` (else null)
 /// R_min_mg … T_max_mg, their outcomes, and the measures delta_R_mg … d_T_mg, R_star, T_star. Columns that
 /// end in _mg are in the packing's unit of force, lengths in the scene's unit; `forces` and `ranges` are
 /// given in the scene's unit of force. Unbounded values are inf; empty fields are unknown.

@@ -3,7 +3,8 @@
 namespace indet {
 
 const std::vector<ImportFormat>& import_formats() {
-  static const std::vector<ImportFormat> formats = {csv_format(), lammps_format()};
+  static const std::vector<ImportFormat> formats = {csv_format(), lammps_format(), liggghts_format(),
+                                                    yade_format()};
   return formats;
 }
 

@@ -13,8 +13,9 @@ namespace indet {
 
 /// What is to be read.
 struct ImportRequest {
-  std::filesystem::path input;  ///< A file or folder, of formats that are one.
-  DumpFiles dumps;              ///< Of formats that are two dumps.
+  std::filesystem::path input;     ///< A file or folder, of formats that are one.
+  DumpFiles dumps;                 ///< Of formats that are two dumps.
+  std::vector<std::string> walls;  ///< "NAME=x:POSITION", of formats that do not say where walls are.
   ImportSettings settings;
 };
 
@@ -38,5 +39,7 @@ const std::vector<ImportFormat>& import_formats();
 // One function a format.
 ImportFormat csv_format();
 ImportFormat lammps_format();
+ImportFormat liggghts_format();
+ImportFormat yade_format();
 
 }  // namespace indet

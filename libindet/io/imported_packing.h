@@ -13,7 +13,8 @@ namespace indet {
 struct ImportedPacking {
   Packing packing;
   std::vector<std::string> warnings;
-  int duplicates = 0;      ///< Contacts that were given twice with the same forces, and dropped once.
+  int duplicates = 0;         ///< Contacts that were given twice with the same forces, and dropped once.
+  int without_equations = 0;  ///< Contacts between two bodies without equations, which were left out.
   double rounding = 0;     ///< Relative rounding of the numbers in the file where they were printed with few
                            ///< digits (5e-6 for six); 0 for full precision.
   std::vector<int> types;  ///< Of the material of each disk, −1 if it has none; empty if the format has none.

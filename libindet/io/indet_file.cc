@@ -16,8 +16,7 @@
 namespace indet {
 namespace {
 
-constexpr std::int64_t kSchemaMajor = 1;
-constexpr std::int64_t kSchemaMinor = 0;
+constexpr std::int64_t kLatestMajor = 2;
 
 std::string user_name() {
   const char* user = std::getenv("USER");
@@ -38,10 +37,10 @@ std::string content_digest(const Hdf5File& file) {
 
 }  // namespace
 
-void write_header(Hdf5File& file) {
-  file.set_attribute("/", "Conventions", "H5MD-1.1 indet-1");
-  const std::array<std::int64_t, 2> schema = {kSchemaMajor, kSchemaMinor};
-  file.set_attribute("/", "schema_version", std::span<const std::int64_t>(schema));
+void write_header(Hdf5File& file, SchemaVersion schema) {
+  file.set_attribute("/", "Conventions", fmt::format("H5MD-1.1 indet-{}", schema.major));
+  const std::array<std::int64_t, 2> numbers = {schema.major, schema.minor};
+  file.set_attribute("/", "schema_version", std::span<const std::int64_t>(numbers));
   const std::array<std::int64_t, 2> h5md = {1, 1};
   file.make_group("/h5md");
   file.set_attribute("/h5md", "version", std::span<const std::int64_t>(h5md));
@@ -90,8 +89,9 @@ Hdf5File open_indet_file(const std::filesystem::path& path) {
   };
   if (!file.has_attribute("/", "schema_version")) fail("is an HDF5 file, but not one of indet");
   const double major = file.doubles_attribute("/", "schema_version", 2)[0];
-  if (major != static_cast<double>(kSchemaMajor)) {
-    fail(fmt::format("has version {} of the format; this program reads version {}", major, kSchemaMajor));
+  if (major != 1 && major != static_cast<double>(kLatestMajor)) {
+    fail(fmt::format("has version {} of the format; this program reads versions 1 and {}", major,
+                     kLatestMajor));
   }
   if (!file.has_attribute("/", "complete") || file.integer_attribute("/", "complete") != 1) {
     fail("was not written to its end");

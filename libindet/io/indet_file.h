@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -41,8 +42,14 @@ struct Digests {
 Digests compute_digests(const Hdf5File& file);
 Digests compute_digests(const std::filesystem::path& path);
 
+/// The version of the format that a file is written in: one with a higher first number has what older readers
+/// would pass over and so misunderstand (docs/file-format.md).
+struct SchemaVersion {
+  std::int64_t major = 1, minor = 0;
+};
+
 // For the writers of such files.
-void write_header(Hdf5File& file);
+void write_header(Hdf5File& file, SchemaVersion schema = {});
 void write_provenance_part(Hdf5File& file, const Provenance& provenance);
 /// Stores the digest of the contents, marks the file complete and commits it.
 void seal(Hdf5File& file);

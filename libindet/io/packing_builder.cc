@@ -130,8 +130,7 @@ void PackingBuilder::add_contact(const Contact& contact, const Place& place) {
                                      : "do positions and contacts belong together?"));
   }
   if (!packing_.has_equations(contact.a) && !packing_.has_equations(contact.b)) {
-    ++immovable_;
-    immovable_place_ = place;
+    ++imported_.without_equations;
     return;
   }
   const std::pair<std::int32_t, std::int32_t> key = std::minmax({contact.a.value(), contact.b.code()});
@@ -225,11 +224,6 @@ void PackingBuilder::warn_of_what_was_left_out() {
   if (apart_ > 0) {
     warn(fmt::format("{}: left out {}, which neither touch nor transmit a force", apart_place_.source,
                      counted(apart_, "pair of " + noun_ + "s", "pairs of " + noun_ + "s")));
-  }
-  if (immovable_ > 0) {
-    warn(fmt::format(
-        "{}: left out {} fixed", immovable_place_.source,
-        counted(immovable_, "contact, whose bodies are both", "contacts, whose bodies are both")));
   }
   const auto idle = std::count_if(packing_.contacts.begin(), packing_.contacts.end(),
                                   [](const Contact& c) { return c.R == 0 && c.T == 0; });

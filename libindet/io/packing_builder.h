@@ -97,9 +97,8 @@ class PackingBuilder {
   std::vector<FoundContact> contacts_;
   std::map<std::pair<std::int32_t, std::int32_t>, FoundContact> first_;  ///< By the pair of bodies.
   bool periodic_ = false;
-  int apart_ = 0;      ///< Contacts that neither touch nor push.
-  int immovable_ = 0;  ///< Contacts between two bodies without equations.
-  Place apart_place_, immovable_place_, repeated_place_;
+  int apart_ = 0;  ///< Contacts that neither touch nor push.
+  Place apart_place_, repeated_place_;
 };
 
 }  // namespace indet

@@ -1,7 +1,7 @@
 #include "libindet/io/packing_file.h"
 
 #include <algorithm>
-#include <limits>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,6 +56,8 @@ void write_parameters(Hdf5File& file, const Packing& packing) {
   file.set_attribute("/parameters", "Ly", packing.origin.height);
 }
 
+bool is_fixed(const Disk& disk) { return disk.fixed; }
+
 void write_disks(Hdf5File& file, const std::vector<Disk>& disks) {
   const std::string group = "/particles/disks";
   const std::size_t n = disks.size();
@@ -88,6 +90,10 @@ void write_disks(Hdf5File& file, const std::vector<Disk>& disks) {
              rows(
                  disks, [](const Disk& d) -> auto& { return d.load; }),
              {n, 3}, {"force, force, force*length", "external force x, y and torque beside gravity"});
+  if (std::any_of(disks.begin(), disks.end(), is_fixed)) {
+    file.write(group + "/fixed", column<std::uint8_t>(disks, is_fixed), {n},
+               {"1", "1: the disk is fixed and has no equations"});
+  }
 }
 
 void write_walls(Hdf5File& file, const std::vector<Wall>& walls) {
@@ -128,6 +134,14 @@ void write_contacts(Hdf5File& file, const std::vector<Contact>& contacts) {
              {"force", "tangential force as simulated, NaN if unknown"});
 }
 
+void write_levers(Hdf5File& file, const std::vector<Contact>& contacts) {
+  const std::size_t n = contacts.size();
+  file.write("/contacts/lever_a", column<double>(contacts, [](const Contact& c) { return c.lever_a; }), {n},
+             {"length", "arm of the torque of T on a, NaN: the radius"});
+  file.write("/contacts/lever_b", column<double>(contacts, [](const Contact& c) { return c.lever_b; }), {n},
+             {"length", "arm of the torque of T on b, NaN: the radius, or a wall"});
+}
+
 std::vector<Disk> read_disks(const Hdf5File& file) {
   const std::string group = "/particles/disks";
   const std::size_t n = file.shape(group + "/id", 1)[0];
@@ -140,6 +154,8 @@ std::vector<Disk> read_disks(const Hdf5File& file) {
   const auto mass = file.read_doubles(group + "/mass", {n});
   const auto inertia = file.read_doubles(group + "/inertia", {n});
   const auto load = file.read_doubles(group + "/load", {n, 3});
+  const auto fixed =
+      file.has(group + "/fixed") ? file.read_bytes(group + "/fixed", {n}) : std::vector<std::uint8_t>(n, 0);
   std::vector<Disk> disks(n);
   for (std::size_t i = 0; i < n; ++i) {
     disks[i] = Disk{.id = id[i],
@@ -150,7 +166,8 @@ std::vector<Disk> read_disks(const Hdf5File& file) {
                     .angle = angle[i],
                     .velocity = {velocity[2 * i], velocity[2 * i + 1]},
                     .angular_velocity = angular_velocity[i],
-                    .load = {load[3 * i], load[3 * i + 1], load[3 * i + 2]}};
+                    .load = {load[3 * i], load[3 * i + 1], load[3 * i + 2]},
+                    .fixed = fixed[i] != 0};
   }
   return disks;
 }
@@ -180,6 +197,11 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
   const auto mu = file.read_doubles("/contacts/mu", {n});
   const auto r = file.read_doubles("/contacts/R", {n});
   const auto t = file.read_doubles("/contacts/T", {n});
+  const auto lever = [&](const std::string& name) {
+    return file.has(name) ? file.read_doubles(name, {n}) : std::vector<double>(n, kNaN);
+  };
+  const auto lever_a = lever("/contacts/lever_a");
+  const auto lever_b = lever("/contacts/lever_b");
   std::vector<Contact> contacts(n);
   for (std::size_t i = 0; i < n; ++i) {
     contacts[i] = Contact{.a = DiskId(a[i]),
@@ -188,18 +210,26 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
                           .gap = gap[i],
                           .mu = mu[i],
                           .R = r[i],
-                          .T = t[i]};
+                          .T = t[i],
+                          .lever_a = lever_a[i],
+                          .lever_b = lever_b[i]};
   }
   return contacts;
 }
 
 }  // namespace
 
+SchemaVersion schema_of(const Packing& packing) {
+  const bool fixed = std::any_of(packing.disks.begin(), packing.disks.end(), is_fixed);
+  return fixed || packing.has_levers() ? SchemaVersion{2, 0} : SchemaVersion{1, 0};
+}
+
 void write_packing_part(Hdf5File& file, const Packing& packing) {
   write_parameters(file, packing);
   write_disks(file, packing.disks);
   write_walls(file, packing.walls);
   write_contacts(file, packing.contacts);
+  if (packing.has_levers()) write_levers(file, packing.contacts);
 }
 
 Packing read_packing(const Hdf5File& file) {
@@ -223,7 +253,7 @@ Packing read_packing(const Hdf5File& file) {
 
 void write_packing(const std::filesystem::path& path, const Packing& packing, const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
-  write_header(file);
+  write_header(file, schema_of(packing));
   write_packing_part(file, packing);
   write_provenance_part(file, provenance);
   seal(file);

@@ -15,7 +15,10 @@ void write_packing(const std::filesystem::path& path, const Packing& packing, co
 Packing read_packing(const Hdf5File& file);
 Packing read_packing(const std::filesystem::path& path);
 
-/// The part of a file that is its packing, for the writers of files that hold more.
+// For the writers of files that hold more.
+/// 2.0 where the packing has a lever or a fixed disk, which readers of 1.0 would pass over; else 1.0.
+SchemaVersion schema_of(const Packing& packing);
+/// The part of a file that is its packing.
 void write_packing_part(Hdf5File& file, const Packing& packing);
 
 }  // namespace indet

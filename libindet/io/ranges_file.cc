@@ -252,7 +252,7 @@ void write_work_part(Hdf5File& file, const ForceRanges& ranges) {
 void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
                   const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
-  write_header(file);
+  write_header(file, schema_of(packing));
   write_packing_part(file, packing);
   write_ranges_part(file, ranges);
   Provenance all = provenance;

@@ -106,7 +106,7 @@ void write_sampling_part(Hdf5File& file, const SamplingRecord& record, const std
 void write_sampling(const std::filesystem::path& path, const Packing& packing, const SamplingRecord& record,
                     const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
-  write_header(file);
+  write_header(file, schema_of(packing));
   write_packing_part(file, packing);
   write_sampling_part(file, record);
   write_provenance_part(file, provenance);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 
 namespace indet {
@@ -27,7 +31,7 @@ void write_contact_columns(Hdf5File& file, const std::string& group, const std::
   std::vector<std::int32_t> a;
   std::vector<std::int32_t> b;
   std::vector<Vector2> normal;
-  std::vector<double> gap, mu, R, T;
+  std::vector<double> gap, mu, R, T, lever_a, lever_b;
   for (const Contact& c : contacts) {
     a.push_back(c.a.value());
     b.push_back(c.b.code());
@@ -36,6 +40,8 @@ void write_contact_columns(Hdf5File& file, const std::string& group, const std::
     mu.push_back(c.mu);
     R.push_back(c.R);
     T.push_back(c.T);
+    lever_a.push_back(c.lever_a);
+    lever_b.push_back(c.lever_b);
   }
   const std::size_t m = contacts.size();
   file.make_group(group);
@@ -46,6 +52,13 @@ void write_contact_columns(Hdf5File& file, const std::string& group, const std::
   file.write(group + "/mu", mu, {m}, {"1", "Coulomb friction coefficient"});
   file.write(group + "/R", R, {m}, {"force", "normal force"});
   file.write(group + "/T", T, {m}, {"force", "tangential force"});
+  const auto is_given = [](double lever) { return !std::isnan(lever); };
+  if (std::none_of(lever_a.begin(), lever_a.end(), is_given) &&
+      std::none_of(lever_b.begin(), lever_b.end(), is_given))
+    return;
+  file.write(group + "/lever_a", lever_a, {m}, {"length", "arm of the torque of T on a, NaN: the radius"});
+  file.write(group + "/lever_b", lever_b, {m},
+             {"length", "arm of the torque of T on b, NaN: the radius, or a wall"});
 }
 
 std::vector<Contact> read_contact_columns(const Hdf5File& file, const std::string& group) {
@@ -57,6 +70,11 @@ std::vector<Contact> read_contact_columns(const Hdf5File& file, const std::strin
   const auto mu = file.read_doubles(group + "/mu", {m});
   const auto R = file.read_doubles(group + "/R", {m});
   const auto T = file.read_doubles(group + "/T", {m});
+  const auto lever = [&](const std::string& name) {
+    return file.has(name) ? file.read_doubles(name, {m}) : std::vector<double>(m, kNaN);
+  };
+  const auto lever_a = lever(group + "/lever_a");
+  const auto lever_b = lever(group + "/lever_b");
   std::vector<Contact> contacts;
   for (std::size_t i = 0; i < m; ++i) {
     contacts.push_back({.a = DiskId(a[i]),
@@ -65,7 +83,9 @@ std::vector<Contact> read_contact_columns(const Hdf5File& file, const std::strin
                         .gap = gap[i],
                         .mu = mu[i],
                         .R = R[i],
-                        .T = T[i]});
+                        .T = T[i],
+                        .lever_a = lever_a[i],
+                        .lever_b = lever_b[i]});
   }
   return contacts;
 }
@@ -141,7 +161,7 @@ void write_simulation(const std::filesystem::path& path, const Packing& packing,
                       const SimulationRecord& record, const Trajectory& trajectory,
                       const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
-  write_header(file);
+  write_header(file, schema_of(packing));
   write_packing_part(file, packing);
   write_simulation_part(file, record);
   if (!trajectory.empty()) write_trajectory_part(file, trajectory);
@@ -159,7 +179,7 @@ Trajectory read_trajectory(const Hdf5File& file) {
 void write_checkpoint(const std::filesystem::path& path, const StoredCheckpoint& checkpoint,
                       const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
-  write_header(file);
+  write_header(file, schema_of(checkpoint.state));
   write_packing_part(file, checkpoint.state);
   const std::string group = "/checkpoint";
   const std::size_t m = checkpoint.spring.size();

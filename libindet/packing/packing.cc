@@ -50,15 +50,22 @@ Vector3 Packing::wrench(DiskId disk) const {
   return {d.mass * gravity.x() + d.load.x(), d.mass * gravity.y() + d.load.y(), d.load.z()};
 }
 
-double Packing::lever_a(ContactId contact) const {
-  const Contact& c = (*this)[contact];
+double Packing::lever_a(const Contact& c) const {
   return std::isnan(c.lever_a) ? (*this)[c.a].radius : c.lever_a;
 }
 
-double Packing::lever_b(ContactId contact) const {
-  const Contact& c = (*this)[contact];
+double Packing::lever_b(const Contact& c) const {
   if (c.b.is_wall()) return 0;
   return std::isnan(c.lever_b) ? (*this)[c.b.disk_id()].radius : c.lever_b;
+}
+
+bool Packing::has_levers() const {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const Contact& c) { return !std::isnan(c.lever_a) || !std::isnan(c.lever_b); });
+}
+
+Vector2 Packing::contact_point(const Contact& contact) const {
+  return (*this)[contact.a].position - lever_a(contact) * contact.normal;
 }
 
 SceneForces Packing::simulated_forces() const {

@@ -101,6 +101,8 @@ struct Packing {
 
   int disk_count() const { return static_cast<int>(disks.size()); }
   int free_disk_count() const;  ///< N: disks that are not fixed.
+  /// 2M − 3N, the least nullity of c.
+  int expected_dimension() const { return 2 * contact_count() - 3 * free_disk_count(); }
   int wall_count() const { return static_cast<int>(walls.size()); }
   int contact_count() const { return static_cast<int>(contacts.size()); }
 
@@ -129,8 +131,13 @@ struct Packing {
   bool has_equations(Body body) const { return !body.is_wall() && has_equations(body.disk_id()); }
 
   /// The arm of the torque of T on a; on b, 0 if b is a wall.
-  double lever_a(ContactId contact) const;
-  double lever_b(ContactId contact) const;
+  double lever_a(ContactId contact) const { return lever_a((*this)[contact]); }
+  double lever_b(ContactId contact) const { return lever_b((*this)[contact]); }
+  double lever_a(const Contact& contact) const;  ///< Of one of this packing's disks.
+  double lever_b(const Contact& contact) const;
+  bool has_levers() const;  ///< Some contact has a lever of its own.
+  /// Where the force of a contact acts: x_a − l_a n̂.
+  Vector2 contact_point(const Contact& contact) const;
 
   /// The simulated forces, 2M; NaN where unknown.
   SceneForces simulated_forces() const;

@@ -56,7 +56,9 @@ std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const Equi
   for (Eigen::Index i = 0; i < motion.size(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
     const int number = exact.row(row.disk, row.component);
-    if (number >= 0) result[static_cast<std::size_t>(number)] = motion[i] / largest;
+    if (number < 0) continue;
+    const double scale = row.component == 2 ? exact.spin_scale(row.disk) : 1;
+    result[static_cast<std::size_t>(number)] = motion[i] / largest * scale;
   }
   return result;
 }

@@ -6,6 +6,16 @@
 #include "libindet/range/rounding_bounds.h"
 
 namespace indet {
+namespace {
+
+/// The column of R is n̂, that of T is t̂ and l/r, of which l = r makes 1; other quotients are rounded.
+bool has_stored_entries(const EquilibriumProblem& problem, const Edge& edge) {
+  if (!problem.is_stick(edge)) return false;
+  const ContactEnds& ends = problem.contacts[static_cast<std::size_t>(edge.contact.value())];
+  return edge.sign > 0 || (ends.arm_a == 1 && ends.arm_b == 1);
+}
+
+}  // namespace
 
 EquationBounds::EquationBounds(const ForcePolytope& polytope)
     : polytope_(polytope), problem_(polytope.problem), rows_(polytope.null_space->independent_rows) {
@@ -70,7 +80,7 @@ void EquationBounds::bound_right_inverse() {
 Eigen::VectorXd EquationBounds::inexact_entries(const Eigen::VectorXd& weight) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(rank());
   for (int j = 0; j < matrix_.outerSize(); ++j) {
-    if (problem_.is_stick(problem_.edge(j))) continue;
+    if (has_stored_entries(problem_, problem_.edge(j))) continue;
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) sums[it.row()] += weight[j];
   }
   return sums;

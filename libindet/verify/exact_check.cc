@@ -121,12 +121,12 @@ class Check {
       const Contact& contact = packing_[ContactId(e / 2)];
       const double mu = e % 2 == 0 ? contact.mu : -contact.mu;
       const Vector2 force = contact.normal + mu * contact.tangent();
-      const auto power = [&](DiskId disk, double side) {
+      const auto power = [&](DiskId disk, double side, double lever) {
         const auto v = ranges_.motion.row(disk.value());
-        return side * (force.x() * v[0] + force.y() * v[1]) + mu * v[2];
+        return side * (force.x() * v[0] + force.y() * v[1]) + mu * v[2] * lever / packing_[disk].radius;
       };
-      double total = power(contact.a, 1);
-      if (!contact.b.is_wall()) total += power(contact.b.disk_id(), -1);
+      double total = power(contact.a, 1, packing_.lever_a(ContactId(e / 2)));
+      if (!contact.b.is_wall()) total += power(contact.b.disk_id(), -1, packing_.lever_b(ContactId(e / 2)));
       preference[static_cast<std::size_t>(e)] = -std::abs(total);
     }
     const auto basis = basis_by(preference);

@@ -21,6 +21,7 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
   wrench_.setZero(3 * disks);
   for (int i = 0; i < disks; ++i) {
     const Disk& disk = packing[DiskId(i)];
+    if (disk.fixed) continue;
     wrench_[3 * i] = (disk.mass * packing.gravity.x() + disk.load.x()) / force_unit_;
     wrench_[3 * i + 1] = (disk.mass * packing.gravity.y() + disk.load.y()) / force_unit_;
     wrench_[3 * i + 2] = disk.load.z() / (force_unit_ * disk.radius);
@@ -30,11 +31,14 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
     const Contact& contact = packing[ContactId(c)];
     const double nx = contact.normal.x();
     const double ny = contact.normal.y();
-    const auto place = [&](int disk, double chi) {
-      matrix_.block<3, 2>(3 * disk, 2 * c) << chi * nx, chi * ny, chi * ny, -chi * nx, 0, 1;
+    const auto place = [&](DiskId id, double chi, double lever) {
+      const Disk& disk = packing[id];
+      if (disk.fixed) return;
+      const double arm = std::isnan(lever) ? 1 : lever / disk.radius;
+      matrix_.block<3, 2>(3 * id.value(), 2 * c) << chi * nx, chi * ny, chi * ny, -chi * nx, 0, arm;
     };
-    place(contact.a.value(), 1);
-    if (!contact.b.is_wall()) place(contact.b.disk_id().value(), -1);
+    place(contact.a, 1, contact.lever_a);
+    if (!contact.b.is_wall()) place(contact.b.disk_id(), -1, contact.lever_b);
     if (contact.mu == 0) frictionless.push_back(2 * c + 1);
   }
   Eigen::MatrixXd constraints(matrix_.rows() + static_cast<Eigen::Index>(frictionless.size()),

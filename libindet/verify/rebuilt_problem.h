@@ -9,7 +9,8 @@ namespace indet {
 
 /// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
 /// solved with other means than the analysis uses: a dense contact matrix [15] with all 2M columns (T is held
-/// at 0 where μ = 0 by a row of its own), and its kernel by column-pivoted Householder QR. Forces in units of
+/// at 0 where μ = 0 by a row of its own) and rows of 0 for fixed disks, and its kernel by column-pivoted
+/// Householder QR. Forces in units of
 /// the packing's force unit.
 class RebuiltProblem {
  public:

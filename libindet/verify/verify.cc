@@ -60,6 +60,10 @@ class Verifier {
                           ranges_.motion.rows(), packing_.disk_count())) {
       return;
     }
+    for (int i = 0; i < packing_.disk_count(); ++i) {
+      compare_.require(!packing_[DiskId(i)].fixed || ranges_.motion.row(i).isZero(0),
+                       "motion: disk {} is fixed, but moves", packing_[DiskId(i)].id);
+    }
     const double power = problem_.load_power(ranges_.motion);
     const double resisted = problem_.smallest_contact_power(ranges_.motion);
     compare_.require(power > 0, "motion: the load does no work ({})", power);
@@ -270,6 +274,7 @@ class Verifier {
     std::vector<bool> is_turned(packing_.disks.size(), false);
     for (const Contact& contact : packing_.contacts) {
       const auto touch = [&](DiskId disk) {
+        if (packing_[disk].fixed) return;
         const auto i = static_cast<std::size_t>(disk.value());
         is_touched[i] = true;
         is_turned[i] = is_turned[i] || contact.mu > 0;

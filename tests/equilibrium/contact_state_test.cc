@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "libindet/base/random.h"
+#include "tests/support/body_variants.h"
 #include "tests/support/oracle.h"
 #include "tests/support/zoo.h"
 
@@ -14,6 +15,7 @@ TEST(ContactState, ResidualIsTheOneOfThePapersEquations) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Packing packing = zoo::rescaled(zoo::random_pile(seed, 6, -1), 0.37, 1.9, 9.81);
     packing.disks[2].load = {0.3, -2, 0.7};
+    if (seed % 2 == 1) packing = zoo::with_levers(zoo::with_fixed_disks(packing, seed), seed);
     Eigen::VectorXd forces(2 * packing.contact_count());
     for (double& force : forces) force = random.uniform(-3, 3) * packing.force_unit();
     const Eigen::VectorXd balance =

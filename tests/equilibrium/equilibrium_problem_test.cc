@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libindet/base/random.h"
+#include "tests/support/body_variants.h"
 #include "tests/support/compare.h"
 #include "tests/support/oracle.h"
 #include "tests/support/zoo.h"
@@ -18,6 +19,7 @@ std::vector<Packing> piles() {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     result.push_back(zoo::rescaled(zoo::random_pile(seed, 6, -1), 0.37, 1.9, 9.81));
     result.back().disks[2].load = {0.3, -2, 0.7};
+    if (seed % 2 == 1) result.back() = zoo::with_levers(zoo::with_fixed_disks(result.back(), seed), seed);
   }
   return result;
 }
@@ -179,8 +181,8 @@ TEST(EquilibriumProblem, EveryContactNamesItsEquations) {
       const Contact& contact = packing[ContactId(i)];
       const ContactEnds& ends = problem.contacts[static_cast<std::size_t>(i)];
       const bool is_open = problem.modes[static_cast<std::size_t>(i)] == ContactMode::kOpen;
-      ASSERT_EQ(ends.a < 0, is_open);
-      ASSERT_EQ(ends.b < 0, is_open || contact.b.is_wall());
+      ASSERT_EQ(ends.a < 0, is_open || packing[contact.a].fixed);
+      ASSERT_EQ(ends.b < 0, is_open || contact.b.is_wall() || packing[contact.b.disk_id()].fixed);
       for (int k = 0; k < 2 && ends.a >= 0; ++k) {
         const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(ends.a + k)];
         EXPECT_EQ(row.disk, contact.a);

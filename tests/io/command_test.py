@@ -236,7 +236,7 @@ class Inspect(CommandTest):
                 (replace("contacts/mu", data=np.zeros(5), compression="lzf"), "uses filter 32000"),
                 (lambda f: f["equilibrium"].attrs.modify("status", "splendid"), "\"splendid\" is unknown"),
                 (lambda f: f.attrs.__delitem__("complete"), "was not written to its end"),
-                (lambda f: f.attrs.modify("schema_version", [2, 0]), "has version 2 of the format"),
+                (lambda f: f.attrs.modify("schema_version", [3, 0]), "has version 3 of the format"),
         ]:
             with self.subTest(message):
                 self.changed(change)

@@ -63,29 +63,35 @@ Eigen::MatrixXd paper_matrix(const Packing& packing) {
     const Contact& contact = packing[ContactId(k)];
     const double nx = contact.normal.x();
     const double ny = contact.normal.y();
-    const auto act_on = [&](DiskId disk, double sign) {
+    const auto act_on = [&](DiskId disk, double sign, double lever) {
+      if (packing[disk].fixed) return;
       const int row = 3 * disk.value();
       c(row, 2 * k) += sign * nx;
       c(row + 1, 2 * k) += sign * ny;
       c(row, 2 * k + 1) += sign * ny;
       c(row + 1, 2 * k + 1) += sign * -nx;
-      c(row + 2, 2 * k + 1) += packing[disk].radius;
+      c(row + 2, 2 * k + 1) += std::isnan(lever) ? packing[disk].radius : lever;
     };
-    act_on(contact.a, 1);
-    if (!contact.b.is_wall()) act_on(contact.b.disk_id(), -1);
+    act_on(contact.a, 1, contact.lever_a);
+    if (!contact.b.is_wall()) act_on(contact.b.disk_id(), -1, contact.lever_b);
   }
   return c;
 }
 
 Eigen::VectorXd paper_wrench(const Packing& packing) {
   double weight = 0;
-  for (const Disk& disk : packing.disks) weight += disk.mass;
-  const double unit = packing.named_force_unit > 0
-                          ? packing.named_force_unit
-                          : packing.gravity.norm() * weight / static_cast<double>(packing.disks.size());
-  Eigen::VectorXd w(3 * packing.disk_count());
+  int free = 0;
+  for (const Disk& disk : packing.disks) {
+    if (disk.fixed) continue;
+    weight += disk.mass;
+    ++free;
+  }
+  const double unit =
+      packing.named_force_unit > 0 ? packing.named_force_unit : packing.gravity.norm() * weight / free;
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(3 * packing.disk_count());
   for (int i = 0; i < packing.disk_count(); ++i) {
     const Disk& disk = packing[DiskId(i)];
+    if (disk.fixed) continue;
     w[3 * i] = (disk.mass * packing.gravity.x() + disk.load.x()) / unit;
     w[3 * i + 1] = (disk.mass * packing.gravity.y() + disk.load.y()) / unit;
     w[3 * i + 2] = disk.load.z() / unit;

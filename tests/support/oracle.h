@@ -10,7 +10,8 @@ namespace indet::oracle {
 /// Slow answers found without any of the code under test: dense matrices written from the paper's formulas,
 /// singular values, and enumeration of all vertices. For packings of few contacts.
 
-/// c of the paper, 3N × 2M with every row and column, torque rows with the lever arm r [15].
+/// c of the paper, 3N × 2M with every row and column, torque rows with the lever arm of each contact (r [15]
+/// where it names none). Rows of fixed disks are 0.
 Eigen::MatrixXd paper_matrix(const Packing& packing);
 
 /// w, 3N, in force units.

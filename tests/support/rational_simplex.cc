@@ -1,5 +1,6 @@
 #include "tests/support/rational_simplex.h"
 
+#include <cmath>
 #include <limits>
 
 namespace indet::oracle {
@@ -20,22 +21,25 @@ RationalSimplex::RationalSimplex(const Packing& packing) {
       if (mu == 0 && side == 1) continue;  // the second edge would be the first again
       const mpq_class tangential = side == 0 ? mu : mpq_class(-mu);
       const std::size_t column = 2 * c + static_cast<std::size_t>(side);
-      const auto act = [&](int disk, int chi) {
+      const auto act = [&](int disk, int chi, double lever) {
+        const Disk& body = packing.disks[static_cast<std::size_t>(disk)];
+        if (body.fixed) return;
         const auto row = 3 * static_cast<std::size_t>(disk);
         rows_[row][column] += chi * (nx + tangential * ny);
         rows_[row + 1][column] += chi * (ny - tangential * nx);
-        rows_[row + 2][column] += tangential;
+        rows_[row + 2][column] += tangential * mpq_class(std::isnan(lever) ? body.radius : lever);
       };
-      act(contact.a.value(), 1);
-      if (!contact.b.is_wall()) act(contact.b.disk_id().value(), -1);
+      act(contact.a.value(), 1, contact.lever_a);
+      if (!contact.b.is_wall()) act(contact.b.disk_id().value(), -1, contact.lever_b);
     }
   }
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     const Disk& disk = packing.disks[i];
+    if (disk.fixed) continue;
     const mpq_class mass(disk.mass);
     rows_[3 * i].back() = -(mass * mpq_class(packing.gravity.x()) + mpq_class(disk.load.x()));
     rows_[3 * i + 1].back() = -(mass * mpq_class(packing.gravity.y()) + mpq_class(disk.load.y()));
-    rows_[3 * i + 2].back() = -mpq_class(disk.load.z()) / mpq_class(disk.radius);
+    rows_[3 * i + 2].back() = -mpq_class(disk.load.z());
   }
   std::vector<mpq_class> costs(columns_ + equations, 0);
   for (std::size_t i = 0; i < equations; ++i) {

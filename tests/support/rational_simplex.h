@@ -13,8 +13,8 @@ namespace indet::oracle {
 /// tableau, Bland's rule, two phases. Nothing of it is shared with the libraries. The doubles of the packing
 /// are taken as they are:
 ///
-///   for each disk  Σ χ (R n̂ + T t̂) = −(m g + load),  Σ T = −load_z / r;  R = p + q,  T = μ (p − q),  p, q ≥
-///   0
+///   for each free disk  Σ χ (R n̂ + T t̂) = −(m g + load),  Σ l T = −load_z;
+///   R = p + q,  T = μ (p − q),  p, q ≥ 0
 class RationalSimplex {
  public:
   /// Precondition: find_defect(packing) is empty.

@@ -306,6 +306,7 @@ Packing with_bodies_swapped(const Packing& packing) {
   Packing result = packing;
   for (Contact& contact : result.contacts) {
     if (contact.b.is_wall()) continue;
+    std::swap(contact.lever_a, contact.lever_b);
     const DiskId a = contact.a;
     contact.a = contact.b.disk_id();
     contact.b = Body::disk(a);

@@ -6,6 +6,7 @@
 
 #include "libindet/range/analyze.h"
 #include "libindet/verify/verify.h"
+#include "tests/support/body_variants.h"
 #include "tests/support/extremes.h"
 #include "tests/support/rational_simplex.h"
 #include "tests/support/zoo.h"
@@ -25,6 +26,26 @@ TEST(ExactCheck, ProvesAllObjectivesOfAPile) {
   ExactCheckOptions two;
   two.threads = 2;
   EXPECT_EQ((check.lower == check_exactly(packing, ranges, two).lower).all(), true);
+}
+
+TEST(ExactCheck, ProvesAllObjectivesWithLeversAndFixedDisks) {
+  int standing = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const Packing packing =
+        zoo::with_levers(zoo::with_fixed_disks(zoo::random_pile(seed, 8, 0.6), seed), seed);
+    const ForceRanges ranges = analyze(packing);
+    const ExactCheck check = check_exactly(packing, ranges);
+    EXPECT_TRUE(check.passed()) << seed << ": " << (check.messages.empty() ? "" : check.messages.front());
+    EXPECT_EQ(check.rank, ranges.rank);
+    if (ranges.status == PolytopeStatus::kEmpty) {
+      EXPECT_TRUE(check.proves_emptiness) << seed;
+      continue;
+    }
+    ++standing;
+    EXPECT_EQ(check.proven + check.repaired, 4 * packing.contact_count());
+    EXPECT_LT(check.worst_error, 1e-10);
+  }
+  EXPECT_GT(standing, 2);
 }
 
 TEST(ExactCheck, RepairsAWrongStateAndReportsAWrongBound) {

@@ -5,6 +5,7 @@
 
 #include "libindet/range/analyze.h"
 #include "libindet/verify/affine_hull.h"
+#include "tests/support/body_variants.h"
 #include "tests/support/zoo.h"
 #include "tests/verify/first_message.h"
 
@@ -53,6 +54,37 @@ TEST(VerifyRanges, CountsAndWorstResiduals) {
   expect_contradiction(packing, with([](ForceRanges& r) { r.worst_dual_residual += 1e-10; }),
                        "worst_dual_residual");
   expect_contradiction(packing, with([](ForceRanges& r) { r.doubtful = true; }), "doubtful");
+}
+
+TEST(VerifyRanges, AcceptsLeversAndFixedDisks) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const Packing packing =
+        zoo::with_levers(zoo::with_fixed_disks(zoo::random_pile(seed, 8, 0.6), seed), seed);
+    const Verification found = verify_ranges(packing, analyze(packing));
+    EXPECT_TRUE(found.passed()) << seed << ": " << first_message(found);
+  }
+}
+
+TEST(VerifyRanges, ReadsLeversAndFixedDisksItself) {
+  const Packing packing = zoo::disk_on_two_fixed(0.5, 0.3, 1, 2);
+  const ForceRanges good = analyze(packing);
+  Packing other = packing;
+  other.contacts[0].lever_a = 0.9;
+  EXPECT_FALSE(verify_ranges(other, good).passed());
+  other = packing;
+  other.disks[1].fixed = false;
+  other.gravity = {0, -1.0 / 4};  // the same mean weight, (1 + 7) / 2 of them
+  EXPECT_FALSE(verify_ranges(other, good).passed());
+}
+
+TEST(VerifyRanges, FixedDisksDoNotMove) {
+  Packing packing = zoo::disk_on_two_fixed(0.5, 0.3, 1, 2);
+  packing.contacts.pop_back();
+  ForceRanges wrong = analyze(packing);
+  ASSERT_EQ(wrong.status, PolytopeStatus::kEmpty);
+  EXPECT_TRUE(verify_ranges(packing, wrong).passed());
+  wrong.motion(1, 0) = 0.5;
+  expect_contradiction(packing, wrong, "disk 2 is fixed, but moves");
 }
 
 TEST(VerifyRanges, SaysHowManyObjectivesFailedOrAreImprecise) {

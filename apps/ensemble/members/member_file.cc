@@ -52,7 +52,7 @@ void write_ensemble_part(Hdf5File& file, const Member& member, const MemberResul
 void write_member(const std::filesystem::path& path, const Member& member, const MemberResult& result,
                   const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
-  write_header(file);
+  write_header(file, schema_of(result.packing));
   write_packing_part(file, result.packing);
   if (result.simulation) write_simulation_part(file, *result.simulation);
   write_ranges_part(file, result.ranges);

@@ -104,7 +104,7 @@ std::size_t add_run(const Member& member, const Hdf5File& file, const Packing& p
   runs.set("seed", run, static_cast<double>(member.seed));
   runs.set("disks", run, packing.disk_count());
   runs.set("contacts", run, packing.contact_count());
-  runs.set("lower_bound", run, 2 * packing.contact_count() - 3 * packing.disk_count());
+  runs.set("lower_bound", run, packing.expected_dimension());
   runs.set("mg", run, mg);
   runs.set("status", run, file.string_attribute("/equilibrium", "status"));
   if (file.has("/simulation")) runs.set("ending", run, file.string_attribute("/simulation", "ending"));

@@ -1,0 +1,223 @@
+"""Packings with fixed disks and with levers of their own, as a user meets them: files, results, messages.
+
+Arguments: the indet executable, tests/data.
+"""
+
+import csv
+import json
+import math
+import pathlib
+import shutil
+import sys
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import program  # noqa: E402
+
+DATA = ""
+
+
+def on_two_fixed(angle=math.pi / 6, mu=0.3):
+    """The groove of program.groove, whose sides are fixed disks, one of them between the wall and the other."""
+    scene = program.groove(angle, mu)
+    s, c = math.sin(angle), math.cos(angle)
+    scene["disks.csv"] = f"id,x,y,radius,mass,fixed\n0,0,0,1,1,\n5,{-3 * s!r},{-3 * c!r},2,,1\n7,{2 * s!r},{-2 * c!r},1,9,1\n"
+    scene["walls.csv"] = f"id,px,py,nx,ny\n0,{-3 * s - 2!r},0,1,0\n"
+    scene["contacts.csv"] = "a,b\n0,5\n7,0\n5,-1\n"
+    return scene
+
+
+def with_levers(levers, angle=math.pi / 6, mu=0.3):
+    scene = program.groove(angle, mu)
+    scene["contacts.csv"] = "a,b,lever_a,lever_b\n" + "".join(f"0,{-1 - i},{lever},\n" for i, lever in enumerate(levers))
+    return scene
+
+
+class FixedDisks(program.ProgramTest):
+    def test_a_disk_on_two_of_them_is_a_groove(self):
+        self.write("p", on_two_fixed())
+        shown = json.loads(self.run_indet("--json", "import", "--format", "csv", "p", "-o", "p.h5").stdout)
+        self.assertEqual((shown["disks"], shown["fixed_disks"], shown["contacts"]), (3, 2, 2))
+        self.assertEqual(shown["without_equations"], 1)
+        self.assertEqual(shown["loose_disks"], 0)
+        self.assertEqual(shown["force_unit"], 1)
+        shown = json.loads(self.run_indet("--json", "analyze", "p.h5", "-o", "r.h5").stdout)
+        self.assertEqual((shown["certified"], shown["dim"], shown["expected_dim"]), (8, 1, 1))
+        mu, s, c = 0.3, 0.5, math.sqrt(0.75)
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual(list(file.attrs["schema_version"]), [2, 0])
+            self.assertEqual(list(file["particles/disks/fixed"][:]), [0, 1, 1])
+            self.assertNotIn("contacts/lever_a", file)
+            np.testing.assert_allclose(file["ranges/delta_R"][:], mu * s / (c**2 - mu**2 * s**2), rtol=1e-12)
+        self.assertEqual(json.loads(self.run_indet("--json", "verify", "--exact", "r.h5").stdout)["contradictions"], 0)
+        self.assertIn("3 (2 fixed)", self.run_indet("inspect", "r.h5").stdout)
+
+    def test_lines_are_named_where_contacts_are_left_out(self):
+        scene = on_two_fixed()
+        scene["contacts.csv"] = "a,b,mu\n5,-1,\n7,5,\n0,5,-1\n"
+        self.write("p", scene)
+        done = self.run_indet("import", "--format", "csv", "p", "-o", "p.h5", status=3)
+        self.assertIn("contacts.csv:4: mu must not be negative", done.stderr)
+
+    def test_a_frozen_base_gives_what_scipy_finds(self):
+        self.run_indet("import", "--format", "csv", f"{DATA}/frozen-base", "-o", "p.h5")
+        shown = json.loads(self.run_indet("--json", "analyze", "p.h5", "-o", "r.h5").stdout)
+        self.assertEqual((shown["dim"], shown["certified"]), (12, 192))
+        self.run_indet("verify", "--exact", "r.h5")
+        lines = pathlib.Path(DATA, "frozen-base", "expected.csv").read_text().splitlines()
+        with h5py.File(self.folder / "r.h5") as file:
+            ids = file["particles/disks/id"][:]
+            bodies = [(ids[a], ids[b] if b >= 0 else b)
+                      for a, b in zip(file["contacts/body_a"][:], file["contacts/body_b"][:])]
+            for i, row in enumerate(csv.DictReader(line for line in lines if not line.startswith("#"))):
+                self.assertEqual(bodies[i], (int(row["a"]), int(row["b"])))
+                for name in ("R_min", "R_max", "T_min", "T_max"):
+                    self.assertAlmostEqual(file[f"ranges/{name}"][i], float(row[name]), delta=1e-9)
+
+    def test_pictures_hatch_them(self):
+        lines = {}
+        for name, scene in (("fixed", on_two_fixed()), ("free", on_two_fixed())):
+            if name == "free":
+                scene["disks.csv"] = scene["disks.csv"].replace(",1\n", ",0\n").replace(",,0", ",1,0")
+            self.packing(scene, name)
+            self.run_indet("export", f"{name}.h5", "-o", f"{name}.svg")
+            lines[name] = (self.folder / f"{name}.svg").read_text().count("<path")
+        self.assertGreater(lines["fixed"], lines["free"] + 10)
+
+    def test_a_simulation_keeps_them_in_place(self):
+        self.packing(on_two_fixed())
+        for protocol in (["cd1"], ["md1", "--preset", "stiff"]):
+            self.run_indet("simulate", "--protocol", *protocol, "--from", "p.h5", "--time-limit", "20", "-o", "s.h5")
+            with h5py.File(self.folder / "s.h5") as file, h5py.File(self.folder / "p.h5") as start:
+                self.assertEqual(list(file["particles/disks/fixed"][:]), [0, 1, 1])
+                np.testing.assert_array_equal(file["particles/disks/position"][1:], start["particles/disks/position"][1:])
+                self.assertEqual(len(file["contacts/R"]), 2)
+            self.run_indet("analyze", "s.h5", "-o", "r.h5")
+            self.run_indet("verify", "r.h5")
+
+    def test_both_ways_of_sampling_take_them(self):
+        scene = on_two_fixed()
+        R = 0.5 / math.cos(math.pi / 6)
+        scene["contacts.csv"] = f"a,b,R,T\n0,5,{R!r},0\n7,0,{R!r},0\n"
+        self.packing(scene)
+        for method in ("uniform", "perturb"):
+            self.run_indet("sample", "p.h5", "--method", method, "-o", f"{method}.h5")
+            self.run_indet("verify", f"{method}.h5")
+            with h5py.File(self.folder / f"{method}.h5") as file:
+                self.assertLess(file["sampling"].attrs["worst_residual"], 1e-9)
+
+
+class Levers(program.ProgramTest):
+    def test_files_and_tables_keep_them(self):
+        self.packing(with_levers(["0.9", ""]))
+        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual(list(file.attrs["schema_version"]), [2, 0])
+            self.assertEqual(file.attrs["Conventions"], "H5MD-1.1 indet-2")
+            np.testing.assert_array_equal(file["contacts/lever_a"][:], [0.9, np.nan])
+            np.testing.assert_array_equal(file["contacts/lever_b"][:], [np.nan, np.nan])
+            self.assertEqual(file["contacts/lever_a"].attrs["unit"], "length")
+        self.run_indet("export", "r.h5", "-o", "table.csv")
+        rows = list(csv.DictReader((self.folder / "table.csv").read_text().splitlines()))
+        self.assertEqual([row["lever_a"] for row in rows], ["0.9", ""])
+        self.assertAlmostEqual(float(rows[0]["x"]), -0.45)  # the point where the force acts
+        self.run_indet("export", "r.h5", "-o", "table.csv")  # known as its own, and replaced
+        for _ in range(2):
+            self.run_indet("export", "r.h5", "--format", "csv", "-o", "scene")
+        self.run_indet("import", "--format", "csv", "scene", "-o", "again.h5")
+        with h5py.File(self.folder / "again.h5") as again, h5py.File(self.folder / "p.h5") as file:
+            self.assertEqual(again.attrs["content_sha256"], file.attrs["content_sha256"])
+        self.assertIn("of 1 of 2 contacts given, 0.9 … 1 of the radius", self.run_indet("inspect", "p.h5").stdout)
+
+    def test_a_packing_without_them_is_of_version_1(self):
+        self.packing(program.groove())
+        with h5py.File(self.folder / "p.h5") as file:
+            self.assertEqual(list(file.attrs["schema_version"]), [1, 0])
+            self.assertNotIn("contacts/lever_a", file)
+            self.assertNotIn("particles/disks/fixed", file)
+
+    def test_torques_are_those_of_the_levers(self):
+        """T_1 = −λ T_0 with λ = l_0/l_1, and the normal forces of zoo::wedge_with_levers."""
+        s, c = 0.5, math.sqrt(0.75)
+        ratio, T = 0.9, 0.05
+        total, difference = (1 + (1 + ratio) * T * s) / c, -(1 - ratio) * T * c / s
+        for levers, status in ((["0.9", ""], 0), (["", ""], 3)):
+            scene = with_levers(levers)
+            forces = [(0.5 * (total + difference), T), (0.5 * (total - difference), -ratio * T)]
+            rows = [f"0,{-1 - i},{lever},{R!r},{t!r}" for i, (lever, (R, t)) in enumerate(zip(levers, forces))]
+            scene["contacts.csv"] = "a,b,lever_a,R,T\n" + "\n".join(rows) + "\n"
+            self.write(f"p{status}", scene)
+            done = self.run_indet("import", "--format", "csv", f"p{status}", "-o", f"p{status}.h5", status=status)
+            if status == 3:
+                self.assertIn("net torque", done.stderr)
+
+    def test_verify_notices_another_lever(self):
+        self.packing(with_levers(["0.9", ""]))
+        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        self.run_indet("verify", "r.h5")
+        with h5py.File(self.folder / "r.h5", "r+") as file:
+            file["contacts/lever_a"][0] = 0.8
+        self.assertIn("contradict", self.run_indet("verify", "r.h5", status=5).stdout)
+
+    def test_samples_and_simulations_take_them(self):
+        self.packing(with_levers(["0.9", "0.95"]))
+        self.run_indet("sample", "p.h5", "--method", "uniform", "-o", "u.h5")
+        self.run_indet("verify", "u.h5")
+        for protocol in (["cd1"], ["md1", "--preset", "stiff"]):
+            self.run_indet("simulate", "--protocol", *protocol, "--from", "p.h5", "--time-limit", "20", "-o", "s.h5")
+            with h5py.File(self.folder / "s.h5") as file:
+                levers = file["contacts/lever_a"][:]
+                self.assertEqual(list(levers), [0.9, 0.95])
+                self.assertAlmostEqual(np.dot(levers, file["contacts/T"][:]), 0, delta=1e-12)
+                np.testing.assert_array_equal(file["simulation/lever_a"][:], levers)
+
+
+class OldFiles(program.ProgramTest):
+    def test_a_file_of_version_1_is_read_with_the_same_results(self):
+        old = f"{DATA}/old/version-1.0.h5"
+        self.assertTrue(json.loads(self.run_indet("--json", "inspect", old).stdout)["intact"])
+        self.run_indet("verify", "--exact", old)
+        self.run_indet("analyze", old, "-o", "r.h5")
+        with h5py.File(old) as before, h5py.File(self.folder / "r.h5") as after:
+            self.assertEqual(list(before.attrs["schema_version"]), [1, 0])
+            self.assertEqual(list(after.attrs["schema_version"]), [1, 0])
+            for group in ("particles", "walls", "contacts"):
+                before[group].visititems(lambda name, thing, group=group: np.testing.assert_array_equal(
+                    thing[()], after[group][name][()]) if isinstance(thing, h5py.Dataset) else None)
+            for name in ("R_min", "R_max", "T_min", "T_max", "outcome"):
+                np.testing.assert_array_equal(before["ranges"][name][:], after["ranges"][name][:])
+
+
+class BadInput(program.ProgramTest):
+    def test_messages_name_file_line_and_reason(self):
+        fixed, levers = on_two_fixed(), with_levers(["0.9", ""])
+        for number, (scene, file, text, message) in enumerate([
+                (fixed, "disks.csv", "id,x,y,radius,mass,fixed\n0,0,0,1,1,2\n", "disks.csv:2: column fixed: must be 0 or 1"),
+                (fixed, "disks.csv", "id,x,y,radius,mass,fixed\n0,0,0,1,1,yes\n", "disks.csv:2: column fixed"),
+                (fixed, "disks.csv", "id,x,y,radius,mass,fixed\n0,0,0,1,,0\n", "disks.csv:2: column mass"),
+                (levers, "contacts.csv", "a,b,lever_a\n0,-1,0\n", "contacts.csv:2: lever_a must be positive"),
+                (levers, "contacts.csv", "a,b,lever_a\n0,-1,1\n0,-2,2.5\n", "contacts.csv:3: lever_a is 2.5, more than"),
+                (levers, "contacts.csv", "a,b,lever_b\n0,-1,1\n", "contacts.csv:2: body b is a wall, which has no lever"),
+                (levers, "contacts.csv", "a,b,lever_a\n0,-1,short\n", "contacts.csv:2: column lever_a"),
+        ]):
+            with self.subTest(message):
+                self.write(f"p{number}", {**scene, file: text})
+                done = self.run_indet("import", "--format", "csv", f"p{number}", "-o", "p.h5", status=3)
+                self.assertIn(message, done.stderr)
+                self.assertNotIn("p.h5", self.files())
+
+    def test_a_file_of_another_version_or_of_a_fixed_pair_is_refused(self):
+        self.packing(on_two_fixed())
+        for change, message in ((lambda f: f.attrs.modify("schema_version", [3, 0]), "has version 3 of the format"),
+                                (lambda f: f["particles/disks/fixed"].__setitem__(0, 1), "nothing has to balance")):
+            shutil.copy(self.folder / "p.h5", self.folder / "changed.h5")
+            with h5py.File(self.folder / "changed.h5", "r+") as file:
+                change(file)
+            self.assertIn(message, self.run_indet("analyze", "changed.h5", "-o", "r.h5", status=3).stderr)
+        self.assertNotIn("r.h5", self.files())
+
+
+if __name__ == "__main__":
+    program.main("DATA")
