@@ -22,6 +22,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// A component that is nothing beside the vector is 0.
+double without_noise(double component, const Vector2& vector) {
+  return std::abs(component) <= 1e-9 * vector.norm() ? 0 : component;
+}
+
 class Examination {
  public:
   Examination(const ImportedPacking& imported, double tolerance)
@@ -32,14 +37,20 @@ class Examination {
         worst_(worst_of([](int) { return true; })) {}
 
   std::vector<ImbalanceCause> causes() {
+    look_at_levers();
     if (worst_ > tolerance_) {
       look_for_gravity();
       look_for_walls();
       look_for_fixed_disks();
+    } else {
+      causes_.push_back(
+          {fmt::format("gravity, walls, fixed disks: the net forces balance to {:.2g} mg, so these are "
+                       "those of the simulation",
+                       worst_),
+           false});
     }
-    look_at_levers();
-    look_for_motion();
     look_at_friction();
+    look_for_motion();
     return std::move(causes_);
   }
 
@@ -55,9 +66,7 @@ class Examination {
     return worst;
   }
 
-  void add(double left, const std::string& text) {
-    if (left < 0.1 * worst_) causes_.push_back({text, left <= tolerance_});
-  }
+  void add(double left, const std::string& text) { causes_.push_back({text, left <= tolerance_}); }
 
   void look_for_gravity() {
     const double unit = packing_.force_unit();
@@ -70,7 +79,6 @@ class Examination {
     }
     if (x.empty()) return;
     const Vector2 gravity(median(x), median(y));
-    if ((gravity - packing_.gravity).norm() <= 1e-3 * packing_.gravity.norm()) return;
     double left = 0;
     for (int i = 0; i < packing_.disk_count(); ++i) {
       const Disk& disk = packing_[DiskId(i)];
@@ -78,8 +86,11 @@ class Examination {
       const Vector2 change = disk.mass / unit * (gravity - packing_.gravity);
       left = std::max(left, (residual_.row(i).head<2>().transpose() + change).norm());
     }
-    add(left, fmt::format("gravity: --gravity {:.6g},{:.6g} instead of {:g},{:g} would leave {:.2g} mg",
-                          gravity.x(), gravity.y(), packing_.gravity.x(), packing_.gravity.y(), left));
+    add(left, fmt::format(
+                  "gravity: --gravity {:.6g},{:.6g}, which most disks want instead of {:g},{:g}, would leave "
+                  "{:.2g} mg",
+                  without_noise(gravity.x(), gravity), without_noise(gravity.y(), gravity),
+                  packing_.gravity.x(), packing_.gravity.y(), left));
   }
 
   void look_for_walls() {
@@ -98,7 +109,11 @@ class Examination {
       return margin.minCoeff() > near;
     };
     for (int i = 0; i < packing_.disk_count(); ++i) at_side += is_inside(i) ? 0 : 1;
-    if (at_side == packing_.disk_count()) return;
+    if (at_side == packing_.disk_count()) {
+      causes_.push_back(
+          {"walls: every disk reaches to a side of the packing, and may lack the force of a wall", false});
+      return;
+    }
     const double left = worst_of(is_inside);
     add(left, fmt::format("walls: on the {} that reach to no side of the packing {:.2g} mg is left; {} at "
                           "its sides may lack the force of a wall (there {})",
@@ -109,18 +124,30 @@ class Examination {
 
   void look_for_fixed_disks() {
     const std::set<int> types(imported_.types.begin(), imported_.types.end());
-    if (types.size() > 1) {
-      for (const int type : types) {
-        const auto is_other = [&](int i) { return imported_.types[static_cast<std::size_t>(i)] != type; };
-        add(worst_of(is_other),
-            fmt::format("fixed disks: --fixed type={} would leave {:.2g} mg", type, worst_of(is_other)));
+    double best = std::numeric_limits<double>::infinity();
+    int fixed = -1;
+    for (const int type : types) {
+      const double left =
+          worst_of([&](int i) { return imported_.types[static_cast<std::size_t>(i)] != type; });
+      if (types.size() > 1 && left < best) {
+        best = left;
+        fixed = type;
       }
     }
     std::vector<int> unbalanced;
     for (int i = 0; i < packing_.disk_count(); ++i) {
       if (packing_.has_equations(DiskId(i)) && force(i) > tolerance_) unbalanced.push_back(i);
     }
-    if (2 * static_cast<int>(unbalanced.size()) > packing_.free_disk_count()) return;
+    if (types.size() > 1) {
+      add(best, fmt::format("fixed disks: --fixed type={} would leave {:.2g} mg", fixed, best));
+      if (best <= tolerance_) return;
+    }
+    if (2 * static_cast<int>(unbalanced.size()) > packing_.free_disk_count()) {
+      causes_.push_back({fmt::format("fixed disks: {} of {} do not balance, too many to be glued or frozen",
+                                     unbalanced.size(), counted(packing_.free_disk_count(), "disk")),
+                         false});
+      return;
+    }
     constexpr std::size_t kShown = 8;
     std::string ids;
     for (std::size_t i = 0; i < std::min(kShown, unbalanced.size()); ++i) {
@@ -136,16 +163,17 @@ class Examination {
   }
 
   void look_at_levers() {
-    if (!imported_.levers) return;
-    std::string text;
-    double best = std::numeric_limits<double>::infinity();
-    for (const LeverTrial& trial : imported_.levers->trials) {
-      text += fmt::format("{}{} {:.2g}", text.empty() ? "" : ", ", name_of(trial.levers), trial.residual);
-      best = std::min(best, trial.residual);
-    }
-    if (text.empty() || best <= tolerance_) return;
+    if (!imported_.levers || imported_.levers->trials.empty()) return;
+    const auto& trials = imported_.levers->trials;
+    const auto best =
+        std::min_element(trials.begin(), trials.end(),
+                         [](const LeverTrial& a, const LeverTrial& b) { return a.residual < b.residual; });
     causes_.push_back(
-        {fmt::format("lever arms: no --lever balances the torques (largest left, mg r: {})", text), false});
+        {fmt::format("lever arms: of {} allowed, --lever {} leaves the smallest torque, {:.2g} "
+                     "mg r{}",
+                     counted(static_cast<std::int64_t>(trials.size()), "choice"), name_of(best->levers),
+                     best->residual, best->residual <= tolerance_ ? ", and balances" : ""),
+         false});
   }
 
   void look_for_motion() {
@@ -160,7 +188,7 @@ class Examination {
       largest = energy / (unit * disk.radius);
       fastest = &disk;
     }
-    if (largest <= tolerance::kMoving) return;
+    if (fastest == nullptr || largest <= tolerance::kMoving) return;
     causes_.push_back(
         {fmt::format("motion: the packing is not at rest; disk {} has the kinetic energy {:.2g} mg r",
                      fastest->id, largest),
@@ -169,11 +197,12 @@ class Examination {
 
   void look_at_friction() {
     const CoulombCount coulomb = count_coulomb(packing_, packing_.simulated_forces(), tolerance::kSliding);
-    if (coulomb.violated == 0) return;
     causes_.push_back(
-        {fmt::format("friction: {} beyond the Coulomb limit, by up to {:.2g} mg (it does not enter "
-                     "the balance, but may show that columns are others than assumed)",
-                     counted(coulomb.violated, "contact is", "contacts are"), coulomb.worst_violation),
+        {coulomb.violated == 0
+             ? std::string("friction: does not enter the balance; every contact is within the Coulomb limit")
+             : fmt::format("friction: does not enter the balance; but {} beyond the Coulomb limit, by up to "
+                           "{:.2g} mg",
+                           counted(coulomb.violated, "contact is", "contacts are"), coulomb.worst_violation),
          false});
   }
 

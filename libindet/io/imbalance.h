@@ -13,18 +13,17 @@ struct ImbalanceCause {
   bool explains = false;  ///< Without it, all that can be checked would balance.
 };
 
-/// Looks for the causes that an importer's user can remedy, by computing what each would leave. Residuals are
-/// those of the known forces, with the levers of the packing, in mg:
+/// The causes that an importer's user can remedy, with what each would leave. Residuals are those of the
+/// known forces, with the levers of the packing, in mg:
 ///
-///   levers         the torques of all choices that were tried
+///   levers         the smallest torque of all choices that were tried
 ///   gravity        the net forces with the gravity g = median of −ΣF/m, which few odd disks do not disturb
 ///   missing walls  the net forces on the disks that reach to no side of the smallest box around the packing
-///   fixed disks    the net forces on the disks that are not of a type; without types, on those that balance
-///   motion         a disk whose kinetic energy is above tolerance::kMoving
-///   friction       contacts beyond the Coulomb limit, which friction alone explains; it does not enter the
-///                  balance
+///   fixed disks    the net forces on the disks that are not of one type; without types, on those that
+///   balance friction       contacts beyond the Coulomb limit (friction does not enter the balance) motion a
+///   disk whose kinetic energy is above tolerance::kMoving
 ///
-/// A cause that would leave as much as before is not named. Precondition: all forces are known.
+/// Precondition: all forces are known.
 std::vector<ImbalanceCause> find_causes(const ImportedPacking& imported, double tolerance);
 
 }  // namespace indet

@@ -4,7 +4,7 @@ namespace indet {
 
 const std::vector<ImportFormat>& import_formats() {
   static const std::vector<ImportFormat> formats = {csv_format(), lammps_format(), liggghts_format(),
-                                                    yade_format()};
+                                                    mercury_format(), yade_format()};
   return formats;
 }
 

@@ -40,6 +40,7 @@ const std::vector<ImportFormat>& import_formats();
 ImportFormat csv_format();
 ImportFormat lammps_format();
 ImportFormat liggghts_format();
+ImportFormat mercury_format();
 ImportFormat yade_format();
 
 }  // namespace indet

@@ -18,13 +18,13 @@
 namespace indet {
 namespace {
 
-/// Adds the contacts of two disks. Returns the largest part of a force that the projections on normal and
-/// tangent drop.
+/// Adds the contacts of two disks. Returns the largest tangential part of a normal force, or normal part of a
+/// tangential one.
 double read_pairs(const Table& table, const LammpsColumns& names, PackingBuilder& builder) {
   table.require({names["atom1"], names["atom2"], names["fx"], names["fy"], names["p1"], names["p2"]});
   const bool has_friction = names.is_named("mu");
   if (has_friction) table.require({names["mu"]});
-  double discarded = 0;
+  double odd_parts = 0;
   for (int row = 0; row < table.rows(); ++row) {
     const Place place = place_of(table, row);
     const DiskId a = builder.disk(table.integer(row, names["atom1"]), place);
@@ -32,14 +32,13 @@ double read_pairs(const Table& table, const LammpsColumns& names, PackingBuilder
     Contact contact = builder.contact(a, Body::disk(b), place);
     const Vector2 normal_force{table.number(row, names["fx"]), table.number(row, names["fy"])};
     const Vector2 tangential_force{table.number(row, names["p1"]), table.number(row, names["p2"])};
-    contact.R = normal_force.dot(contact.normal);
-    contact.T = tangential_force.dot(contact.tangent());
+    PackingBuilder::project(contact, normal_force + tangential_force);
     if (has_friction) contact.mu = table.number(row, names["mu"]);
-    discarded = std::max({discarded, std::abs(normal_force.dot(contact.tangent())),
+    odd_parts = std::max({odd_parts, std::abs(normal_force.dot(contact.tangent())),
                           std::abs(tangential_force.dot(contact.normal))});
     builder.add_contact(contact, place);
   }
-  return discarded;
+  return odd_parts;
 }
 
 }  // namespace
@@ -56,10 +55,10 @@ ImportedPacking read_lammps(const DumpFiles& files, const ImportSettings& settin
   PackingBuilder builder("import lammps", "atom", files.atoms.string(), settings);
   if (dumps.is_periodic(settings.plane)) builder.set_periodic();
   const std::vector<int> rows = read_lammps_atoms(dumps.atoms, names, settings.plane, builder);
-  const double discarded = read_pairs(dumps.contacts.table, names, builder);
+  const double odd_parts = read_pairs(dumps.contacts.table, names, builder);
   read_lammps_walls(dumps.atoms, names, settings.plane, rows, builder);
   ImportedPacking imported = builder.build({0, -1});
-  warn_of_rounding(imported, dumps, names, discarded);
+  warn_of_rounding(imported, dumps, names, odd_parts);
   warn_of_atoms_outside(imported, dumps.atoms, settings.plane);
   return imported;
 }

@@ -32,7 +32,7 @@ void warn(ImportedPacking& imported, std::string text) { imported.warnings.push_
 }  // namespace
 
 void warn_of_rounding(ImportedPacking& imported, const DumpPair& dumps, const LammpsColumns& names,
-                      double discarded) {
+                      double odd_parts) {
   const Packing& packing = imported.packing;
   const Table& atoms = dumps.atoms.table;
   int digits = 0;
@@ -51,12 +51,12 @@ void warn_of_rounding(ImportedPacking& imported, const DumpPair& dumps, const La
   const double unit = packing.force_unit();
   double largest = unit;
   for (const Contact& contact : packing.contacts) largest = std::max(largest, std::abs(contact.R));
-  if (discarded > std::max(tolerance::kDiscardedForce * unit, 1e3 * imported.rounding * largest)) {
+  if (odd_parts > std::max(tolerance::kOddPart * unit, 1e3 * imported.rounding * largest)) {
     warn(imported,
          fmt::format("{}: the normal force ({}, {}) has tangential parts or the tangential force ({}, {}) "
-                     "normal ones, up to {:.3g} mg, which are ignored; are the columns the right ones?",
+                     "normal ones, up to {:.3g} mg; are the columns the right ones?",
                      dumps.contacts.table.source(), names["fx"], names["fy"], names["p1"], names["p2"],
-                     discarded / unit));
+                     odd_parts / unit));
   }
 }
 

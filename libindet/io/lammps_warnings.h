@@ -6,10 +6,10 @@
 
 namespace indet {
 
-/// Warns where numbers were printed with few digits, and sets `imported.rounding`; warns where the
-/// projections on normal and tangent drop parts of forces, of which `discarded` is the largest.
+/// Warns where numbers were printed with few digits, and sets `imported.rounding`; warns where normal forces
+/// have tangential parts or tangential ones normal parts, of which `odd_parts` is the largest.
 void warn_of_rounding(ImportedPacking& imported, const DumpPair& dumps, const LammpsColumns& names,
-                      double discarded);
+                      double odd_parts);
 
 /// Warns of atoms outside the box or behind a wall.
 void warn_of_atoms_outside(ImportedPacking& imported, const DumpFrame& atoms, const Plane& plane);

@@ -53,10 +53,11 @@ class Archive {
     return found == classes_.end() ? "" : found->second;
   }
 
-  /// The first object of a class; none if there is none.
-  pugi::xml_node first_of(const std::string& name) const {
-    const auto found = first_.find(name);
-    return found == first_.end() ? pugi::xml_node() : found->second;
+  /// The NewtonIntegrator, or none. It is written without the name of its class where another engine refers
+  /// to it, so it is known by what it has.
+  pugi::xml_node newton() const {
+    return document_.find_node(
+        [](const pugi::xml_node& node) { return node.child("gravity") && node.child("damping"); });
   }
 
   /// The element at `path` below `node`.
@@ -96,16 +97,14 @@ class Archive {
  private:
   /// Notes classes and objects on the way through the document.
   struct Index : pugi::xml_tree_walker {
-    explicit Index(Archive& archive) : archive(archive) {}
+    explicit Index(Archive& owner) : archive(owner) {}
     bool for_each(pugi::xml_node& node) override {
       const std::string class_name = archive.class_of(node);
       if (const char* id = node.attribute("class_id").value(); *id != '\0' && !class_name.empty()) {
         archive.classes_.emplace(id, class_name);
       }
-      if (const char* id = node.attribute("object_id").value(); *id != '\0') {
+      if (const char* id = node.attribute("object_id").value(); *id != '\0')
         archive.objects_.emplace(id, node);
-        if (!class_name.empty()) archive.first_.emplace(class_name, node);
-      }
       return true;
     }
     Archive& archive;
@@ -131,7 +130,6 @@ class Archive {
   pugi::xml_node scene_;
   std::unordered_map<std::string, std::string> classes_;     ///< Name of each class_id.
   std::unordered_map<std::string, pugi::xml_node> objects_;  ///< By object_id.
-  std::unordered_map<std::string, pugi::xml_node> first_;    ///< First object of each class.
 };
 
 YadeBody read_body(const Archive& archive, const pugi::xml_node& node) {
@@ -194,7 +192,7 @@ YadeScene read_yade_archive(const std::filesystem::path& file) {
   const Archive archive(file);
   YadeScene scene;
   scene.periodic = archive.integer(archive.scene(), "isPeriodic") != 0;
-  if (const pugi::xml_node newton = archive.first_of("NewtonIntegrator")) {
+  if (const pugi::xml_node newton = archive.newton()) {
     scene.gravity = archive.vector(newton, "gravity");
   }
   for (const pugi::xml_node& item : archive.at(archive.scene(), "bodies/px/body").children("item")) {
