@@ -20,6 +20,7 @@ class LammpsColumns {
   const std::string& operator[](const std::string& key) const { return names_.at(key); }
   /// True if the user named the column of this key (as in the plane x, y).
   bool is_named(const std::string& key) const { return named_.contains(key); }
+  bool names_walls() const { return !walls_.empty(); }  ///< True if the user named a wall.
 
   /// Name and column prefix of each wall: those that the user named, else every fix whose columns look like
   /// those of `fix wall/gran … contacts`: at least eight, of which in each row the first is 0, or 1 and the
@@ -31,8 +32,8 @@ class LammpsColumns {
   bool looks_like_a_wall(const Table& atoms, const std::string& prefix) const;
 
   std::map<std::string, std::string> names_;
-  std::map<std::string, std::string> named_;
-  std::map<std::string, std::string> walls_;
+  std::map<std::string, std::string> named_;  ///< By the user.
+  std::map<std::string, std::string> walls_;  ///< Prefix of each wall that the user named.
 };
 
 }  // namespace indet

@@ -171,6 +171,11 @@ std::map<std::string, GivenWall> parse_walls(const std::vector<std::string>& ite
 ImportedPacking read_liggghts(const DumpFiles& files, const std::map<std::string, GivenWall>& walls,
                               const ImportSettings& settings) {
   const LammpsColumns names(settings.columns, settings.plane);
+  for (const char* key : {"atom1", "atom2", "fx", "fy", "p1", "p2", "mu"}) {
+    if (!names.is_named(key)) continue;
+    throw InputError(fmt::format("--columns: {} of LIGGGHTS has its place in the dump of contacts", key));
+  }
+  if (names.names_walls()) throw InputError("--columns: walls of LIGGGHTS are given by --walls");
   const DumpPair dumps = read_dumps(files);
   PackingBuilder builder("import liggghts", "atom", files.atoms.string(), settings);
   if (dumps.is_periodic(settings.plane)) builder.set_periodic();
