@@ -52,8 +52,9 @@ inline constexpr double kPrintedForce = 1e-5;
 /// A force along z up to this, relative to the force in the plane, is rounding.
 inline constexpr double kOutOfPlane = 1e-9;
 
-/// Tangential parts of normal forces, and normal parts of tangential ones, are nothing odd up to this (mg).
-inline constexpr double kOddPart = 1e-6;
+/// Tangential parts of normal forces, and normal parts of tangential ones, are ignored silently up to this
+/// (mg).
+inline constexpr double kDiscardedForce = 1e-6;
 
 // Rank, dimension and shape of the polytope.
 

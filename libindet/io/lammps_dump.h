@@ -34,9 +34,9 @@ DumpFrame read_dump_frame(const std::filesystem::path& path, std::optional<std::
 
 /// Which frame of which dumps makes a packing.
 struct DumpFiles {
-  std::filesystem::path atoms;           ///< `dump custom`
-  std::filesystem::path contacts;        ///< `dump local`
-  std::optional<std::int64_t> timestep;  ///< None: the last frame of each.
+  std::filesystem::path atoms{};           ///< `dump custom`
+  std::filesystem::path contacts{};        ///< `dump local`
+  std::optional<std::int64_t> timestep{};  ///< None: the last frame of each.
 };
 
 /// Atoms and contacts of one timestep.

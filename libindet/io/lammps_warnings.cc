@@ -51,7 +51,7 @@ void warn_of_rounding(ImportedPacking& imported, const DumpPair& dumps, const La
   const double unit = packing.force_unit();
   double largest = unit;
   for (const Contact& contact : packing.contacts) largest = std::max(largest, std::abs(contact.R));
-  if (odd_parts > std::max(tolerance::kOddPart * unit, 1e3 * imported.rounding * largest)) {
+  if (odd_parts > std::max(tolerance::kDiscardedForce * unit, 1e3 * imported.rounding * largest)) {
     warn(imported,
          fmt::format("{}: the normal force ({}, {}) has tangential parts or the tangential force ({}, {}) "
                      "normal ones, up to {:.3g} mg; are the columns the right ones?",
