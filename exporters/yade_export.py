@@ -22,7 +22,8 @@ INTERACTION_COLUMNS = 'id1 id2 nx ny nz fnx fny fnz fsx fsy fsz pd tanphi'
 def export(folder, scene=None):
     """Writes folder/bodies.txt and folder/interactions.txt. `scene`: YADE's O (default: the current one)."""
     if scene is None:
-        from yade import O as scene
+        from yade.wrapper import Omega
+        scene = Omega()
     if scene.periodic:
         raise ValueError('a periodic scene cannot be exported')
     bodies = [_body(body) for body in scene.bodies if body is not None]

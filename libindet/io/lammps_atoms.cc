@@ -80,7 +80,7 @@ std::vector<int> read_lammps_atoms(const DumpFrame& frame, const LammpsColumns& 
     disk.mass = table.number(row, names["mass"]);
     disk.inertia = 0.5 * disk.mass * disk.radius * disk.radius;
     disk.velocity = {table.number_or(row, names["vx"], 0), table.number_or(row, names["vy"], 0)};
-    disk.angular_velocity = plane.turn * table.number_or(row, names["omegaz"], 0);
+    disk.angular_velocity = plane.turned(table.number_or(row, names["omegaz"], 0));
     builder.add_disk(disk, table.is_empty(row, names["type"]) ? -1 : table.integer(row, names["type"]),
                      place_of(table, row));
   }

@@ -97,12 +97,13 @@ void read_wall(const std::string& name, const GivenWall& given, const Table& tab
           fmt::format("atom {} touches wall {} from the other side than those before it; is its plane {}?",
                       packing[DiskId(i)].id, name, given.text));
     }
-    const Contact geometry = builder.contact(DiskId(i), Body::wall(*wall), place);
-    if (geometry.gap < -packing[DiskId(i)].radius) {
-      place.fail(fmt::format("atom {} would overlap wall {} by more than its radius; is its plane {}?",
-                             packing[DiskId(i)].id, name, given.text));
+    Contact contact = builder.contact(DiskId(i), Body::wall(*wall), place);
+    const double radius = packing[DiskId(i)].radius;
+    if (contact.gap > 0.1 * radius || contact.gap < -radius) {
+      place.fail(
+          fmt::format("wall {} pushes atom {}, but there is {:.3g} between their surfaces; is its plane {}?",
+                      name, packing[DiskId(i)].id, contact.gap, given.text));
     }
-    Contact contact = geometry;
     PackingBuilder::project(contact, force);
     builder.add_contact(contact, place);
   }
@@ -191,8 +192,8 @@ ImportedPacking read_liggghts(const DumpFiles& files, const std::map<std::string
 ImportFormat liggghts_format() {
   return {.name = "liggghts",
           .input = "",
-          .options = {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--fixed",
-                      "--force-unit", "--plane", "--walls"},
+          .options = {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--columns",
+                      "--fixed", "--force-unit", "--plane", "--walls"},
           .documented = {Lever::kMidOverlap, Lever::kMidOverlap},
           .lacks_friction = "a LIGGGHTS dump does not contain the friction coefficient",
           .files = [](const ImportRequest& request) -> std::vector<std::filesystem::path> {

@@ -166,7 +166,7 @@ class MercuryReader {
     disk.mass = disk.fixed ? 0 : 1 / inverse;
     disk.inertia = (dimensions_ == 2 ? 0.5 : 0.4) * disk.mass * disk.radius * disk.radius;
     disk.velocity = in_plane(line.vector("velocity"));
-    disk.angular_velocity = plane_.turn * line.vector("angularVelocity")[plane_.normal];
+    disk.angular_velocity = plane_.turned(line.vector("angularVelocity")[plane_.normal]);
     if (!height_) height_ = position[plane_.normal];
     if (std::abs(position[plane_.normal] - *height_) > tolerance::kSameWall * disk.radius) {
       line.place().fail(

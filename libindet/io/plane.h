@@ -17,6 +17,9 @@ struct Plane {
   static Plane xz() { return {0, 2, 1, -1}; }
 
   static char letter(int axis) { return static_cast<char>('x' + axis); }
+  /// The angular velocity of the packing, from that along the axis that is left. (−0 would be another
+  /// number.)
+  double turned(double omega) const { return turn > 0 ? omega : 0 - omega; }
   std::string name() const { return {letter(first), letter(second)}; }
 };
 

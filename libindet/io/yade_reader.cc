@@ -74,7 +74,7 @@ class Reader {
       disk.mass = body.mass;
       disk.inertia = body.inertia;
       disk.velocity = in_plane(body.velocity);
-      disk.angular_velocity = plane_.turn * body.angular_velocity[plane_.normal];
+      disk.angular_velocity = plane_.turned(body.angular_velocity[plane_.normal]);
       disk.fixed = is_fixed(body);
       if (first == nullptr) first = &body;
       const double height = body.position[plane_.normal] - first->position[plane_.normal];

@@ -120,7 +120,7 @@ class Levers(ImportTest):
         done = self.run_indet("import", "--format", "yade", pathlib.Path(DATA, "yade/soft"), "--gravity", "0,-9.81",
                               "-o", "p.h5")
         self.assertIn(f"lever arms          {BOTH} (", done.stdout)
-        self.assertRegex(done.stdout, r"pair=radius,wall=radius +1\.\de-03 mg r")
+        self.assertRegex(done.stdout, r"pair=radius,wall=radius +1\.3\de-03 mg r")
 
     def test_what_the_user_says_is_taken(self):
         shown = self.read("lammps-granular", "--format", "lammps", "--friction", "0.3", "--lever", "wall=radius")
@@ -339,7 +339,7 @@ class Lammps(ImportTest):
                 ("ITEM: BOX BOUNDS ff ff pp\n0.0000000000000000e+00", "ITEM: BOX BOUNDS ff ff pp\nzero",
                  "atoms.dump:6: the bounds of the box must be two numbers"),
                 ("ITEM: BOX BOUNDS ff", "ITEM: BOX BOUNDS abc origin ff", "atoms.dump:6: an edge vector of the box"),
-                (" id type x y radius mass vx vy", "", "atoms.dump:9: column id is missing"),
+                (" id type x y", " number type x y", "atoms.dump:9: column id is missing"),
                 ("ITEM: TIMESTEP\n", "ITEM: SPEED\n", "atoms.dump:1: ITEM: SPEED is unknown"),
         ]:
             with self.subTest(message):
@@ -475,6 +475,20 @@ class Yade(ImportTest):
             # O.save has no penetration depth; the positions of the next step give the gap.
             np.testing.assert_allclose(p["contacts/gap"][()], q["contacts/gap"][()], rtol=1e-6)
 
+    def test_what_the_exporter_wrote_in_yade(self):
+        """20 spheres, exported and saved by YADE 2023.02a at the same time (make_packing.py soft 1e7 20 1 1e-9)."""
+        shown = self.read("yade/exported", "--format", "yade")
+        self.assertEqual((shown["disks"], shown["walls"], shown["gravity"]), (20, 3, [0, -9.81]))
+        self.assertAlmostEqual(shown["force_unit"], 0.007899952098359036, delta=1e-17)
+        self.assertEqual(shown["lever_choice"]["levers"], BOTH)
+        self.assertLess(shown["force_residual"], 1.5 * 6.888826320219525e-11)
+        self.read("yade/exported/scene.xml.gz", "--format", "yade", output="q.h5")
+        with h5py.File(self.folder / "p.h5") as p, h5py.File(self.folder / "q.h5") as q:
+            for item in ["particles/disks/id", "particles/disks/position", "particles/disks/mass", "particles/disks/inertia",
+                         "particles/disks/velocity", "contacts/body_a", "contacts/body_b", "contacts/normal", "contacts/R",
+                         "contacts/T", "contacts/mu", "walls/point", "walls/normal"]:
+                np.testing.assert_allclose(p[item][()], q[item][()], rtol=1e-15, atol=1e-300, err_msg=item)
+
     def test_masses_are_those_of_spheres(self):
         shown = self.read("yade/soft", "--format", "yade", "--gravity", "0,-9.81")
         self.assertAlmostEqual(shown["force_unit"], 7.755398e-3, delta=1e-9)
@@ -594,10 +608,15 @@ class Yade(ImportTest):
                 ("</scene>", "", "s.xml:"), ("<scene ", "<scenes ", "s.xml:"),
                 ("<id>0</id>", "<id>zero</id>", "id: \"zero\" is not a whole number"),
                 ("<isPeriodic>0", "<isPeriodic>no", "isPeriodic: \"no\" is not a whole number"),
-                ("<kn>", "<radius>", "s.xml:"), ("object_id_reference=\"_444\"", "object_id_reference=\"_44444\"",
-                                                 "there is no object _44444")]:
+                ("<kn>", "<radius>", "s.xml:"),
+                ("<interaction class_id=\"84\" tracking_level=\"0\" version=\"0\">\n", "<item><px object_id_reference=\"_x\"/></item>",
+                 "there is no object _x"), ("<id1>0</id1>", "<id1>7777</id1>", "there is no body 7777")]:
             with self.subTest(message):
-                (self.folder / "s.xml").write_text(text.replace(old, new, 1))
+                self.assertIn(old, text)
+                spoilt = text.replace(old, new, 1)
+                if old.startswith("<interaction "):
+                    spoilt = text.replace(old, old + new, 1)
+                (self.folder / "s.xml").write_text(spoilt)
                 self.assertRegex(self.read(self.folder / "s.xml", "--format", "yade", status=3), r"s\.xml:\d+: ")
                 self.assertIn(message, self.read(self.folder / "s.xml", "--format", "yade", status=3))
         (self.folder / "s.xml").write_text("<a><b/></a>")
@@ -647,7 +666,7 @@ class MercuryDpm(ImportTest):
             ids = file["particles/disks/id"][:]
             summed = np.zeros((len(ids), 2))
             n = file["contacts/normal"][:]
-            force = file["contacts/R"][:, None] * n + file["contacts/T"][:, None] * np.c_[n[:, 1], -n[:, 0]]
+            force = file["contacts/R"][:][:, None] * n + file["contacts/T"][:][:, None] * np.c_[n[:, 1], -n[:, 0]]
             for a, b, f in zip(file["contacts/body_a"][:], file["contacts/body_b"][:], force, strict=True):
                 summed[a] += f
                 if b >= 0:
