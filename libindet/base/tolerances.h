@@ -27,7 +27,20 @@ inline constexpr double kNormalDirection = 1e-4;
 /// the internal unit.
 inline constexpr double kBalance = 1e-6;
 
-// Dumps of LAMMPS.
+/// Lever arms that leave net torques up to this (mg) are taken for equally good.
+inline constexpr double kAlikeLevers = 1e-12;
+
+/// A disk lies at a side of the packing if it reaches to within this of the outermost one, relative to the
+/// largest radius; used to tell whether walls are missing.
+inline constexpr double kAtSide = 0.02;
+
+/// A disk whose kinetic energy is above this (mg times its radius) is said to move.
+inline constexpr double kMoving = 1e-6;
+
+/// Tangential forces up to this, relative to the normal ones, are none.
+inline constexpr double kNoTangentialForce = 1e-12;
+
+// Dumps of LAMMPS and other codes.
 
 /// Contact points of one wall: their normals differ by less than this (radian), and they lie this near to one
 /// line (relative to the largest radius).

@@ -10,6 +10,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
+#include "libindet/io/imbalance.h"
 
 namespace indet {
 
@@ -116,14 +117,25 @@ void require_balance(const ImportedPacking& imported, const BalanceReport& repor
   const bool loose = std::none_of(
       imported.packing.contacts.begin(), imported.packing.contacts.end(),
       [&](const Contact& c) { return c.a == disk || (!c.b.is_wall() && c.b.disk_id() == disk); });
-  throw InputError(fmt::format(
-      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. {}",
-      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance,
-      loose
-          ? "This disk has no contact: leave it out, or give the contacts that hold it."
-          : "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
-            "and their forces the normal and tangential ones on body a? If the deviation is acceptable, "
-            "raise --balance-tol; the ranges do not depend on the simulated forces."));
+  std::string message = fmt::format(
+      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. ",
+      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance);
+  if (loose) {
+    message += "This disk has no contact: leave it out, or give the contacts that hold it.";
+  } else {
+    message +=
+        "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
+        "and their forces the normal and tangential ones on body a?";
+    const auto causes =
+        report.forces_known ? find_causes(imported, tolerance) : std::vector<ImbalanceCause>{};
+    for (const ImbalanceCause& cause : causes) {
+      message += fmt::format("\n  {} {}", cause.explains ? "→" : "-", cause.text);
+    }
+    message +=
+        "\nIf the deviation is acceptable, raise --balance-tol; the ranges do not depend on the simulated "
+        "forces.";
+  }
+  throw InputError(message);
 }
 
 }  // namespace indet

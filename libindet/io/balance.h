@@ -14,9 +14,9 @@ struct BalanceReport {
   bool forces_known = false;  ///< R and T of every contact.
   int known_forces = 0;       ///< How many R and T are known, of 2M.
   int checked_disks = 0;      ///< Disks that the residuals are of. Without any they are 0.
-  double force_residual = 0;  ///< Largest magnitude of the net force on a disk.
+  double force_residual = 0;  ///< Largest magnitude of the net force on a free disk.
   DiskId worst_force;
-  double torque_residual = 0;  ///< Largest magnitude of the net torque on a disk.
+  double torque_residual = 0;  ///< Largest magnitude of the net torque on a free disk.
   DiskId worst_torque;
   int coulomb_violations = 0;  ///< Contacts with R < −ε or |T| > μR + ε, ε = tolerance::kSliding.
   double worst_violation = 0;  ///< Largest of −R and |T| − μR.
@@ -36,8 +36,8 @@ BalanceReport report_balance(const ImportedPacking& imported);
 /// a file with few digits explains.
 double default_balance_tolerance(const ImportedPacking& imported);
 
-/// Throws InputError with advice if a residual is above `tolerance` (mg). Disks of which some force is
-/// unknown pass.
+/// Throws InputError if a residual is above `tolerance` (mg), with the causes that it may have and what each
+/// would leave (imbalance.h). Disks of which some force is unknown pass.
 void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance);
 
 }  // namespace indet

@@ -15,6 +15,8 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/io/csv_table.h"
+#include "libindet/io/csv_writer.h"
+#include "libindet/io/import_format.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
@@ -264,6 +266,21 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   for (Contact& contact : packing.contacts) set_unit_length(contact.normal);
   warn_of_large_gaps(imported);
   return imported;
+}
+
+ImportFormat csv_format() {
+  return {.name = "csv",
+          .input = "the folder with disks.csv, contacts.csv, walls.csv, scene.toml",
+          .options = {},
+          .documented = {Lever::kRadius, Lever::kRadius},
+          .lacks_friction = "",
+          .files =
+              [](const ImportRequest& request) {
+                std::vector<fs::path> files;
+                for (const char* name : kSceneFiles) files.push_back(request.input / name);
+                return files;
+              },
+          .read = [](const ImportRequest& request) { return read_csv_scene(request.input); }};
 }
 
 }  // namespace indet

@@ -14,6 +14,7 @@
 
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
+#include "libindet/io/gzip.h"
 #include "libindet/io/utf8.h"
 
 namespace indet {
@@ -48,6 +49,7 @@ std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) 
   auto text =
       std::make_shared<std::string>(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   if (stream.bad()) throw InputError(fmt::format("{}: reading failed", path.string()));
+  if (is_gzip(*text)) *text = unpack_gzip(*text, path.string());
   if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF")) {
     throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", path.string()));
   }

@@ -10,8 +10,8 @@
 
 namespace indet {
 
-/// The text of a file, which must be UTF-8; a byte order mark is dropped. Throws InputError if it cannot be
-/// read, or with the line that holds other bytes.
+/// The text of a file, unpacked if it is a gzip file; it must be UTF-8, of which a byte order mark is
+/// dropped. Throws InputError if it cannot be read, or with the line that holds other bytes.
 std::shared_ptr<const std::string> read_text(const std::filesystem::path& path);
 
 /// One number, independent of the locale: "1", "-1.5e3", "+2", "nan", "inf". The whole of `text` must be the
