@@ -115,11 +115,14 @@ class Examination {
       return;
     }
     const double left = worst_of(is_inside);
-    add(left, fmt::format("walls: on the {} that reach to no side of the packing {:.2g} mg is left; {} at "
-                          "its sides may lack the force of a wall (there {})",
-                          counted(packing_.disk_count() - at_side, "disk"), left, counted(at_side, "disk"),
-                          packing_.wall_count() == 0 ? "are no walls at all"
-                                                     : "are " + counted(packing_.wall_count(), "wall")));
+    const int walls = packing_.wall_count();
+    const std::string there = walls == 0   ? "are no walls at all"
+                              : walls == 1 ? "is 1 wall"
+                                           : fmt::format("are {} walls", walls);
+    add(left,
+        fmt::format("walls: on the {} that reach to no side of the packing {:.2g} mg is left; {} at "
+                    "its sides may lack the force of a wall (there {})",
+                    counted(packing_.disk_count() - at_side, "disk"), left, counted(at_side, "disk"), there));
   }
 
   void look_for_fixed_disks() {
