@@ -109,10 +109,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadPacking{"InsideADisk",
                    [](Packing& p) {
                      p.disks[1].radius = 0.5;
-                     p.disks[1].position = {0.75, 0.5};
+                     p.disks[1].position = {0.25, 0.5};
                      p.disks[0].position.y() = 0.5;
                    },
-                   PackingPart::kContact, 2, "disk 1 and disk 0 overlap by 0.75, more than the radius 0.5 of the "
+                   PackingPart::kContact, 2, "disk 1 and disk 0 overlap by 1.25, more than the diameter 1 of the "
                                              "smaller one"},
         BadPacking{"NoForceUnit",
                    [](Packing& p) {
