@@ -33,7 +33,7 @@ namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "60", paper_walk = "60";
+  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "20", paper_walk = "60";
   std::optional<int> disks;
   std::optional<double> mu;
   EnsembleConfig config;

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -8,6 +11,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/output_files.h"
@@ -15,11 +20,15 @@
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
 #include "libindet/io/csv_writer.h"
+#include "libindet/io/ovito_files.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/table.h"
+#include "libindet/io/vtkhdf.h"
 
 namespace indet::app {
 namespace {
+
+constexpr std::array kFormats = {"csv", "svg", "pdf", "png", "vtkhdf", "extxyz"};
 
 struct ExportOptions {
   std::string file;
@@ -65,8 +74,12 @@ ChosenState choose_state(const ExportOptions& options, const Packing& packing,
                          const std::optional<ForceRanges>& ranges) {
   const StateName name = parse_state(options.state).value();
   if (name.kind == "sim") {
-    return {packing.simulated_forces().value(),
-            packing.has_simulated_forces() ? "simulated state" : "forces unknown"};
+    Eigen::VectorXd forces = packing.simulated_forces().value();
+    const auto known = forces.array().isFinite().count();
+    std::string description = known == forces.size() ? "simulated state"
+                              : known > 0 ? fmt::format("{} of {} forces known", known, forces.size())
+                                          : "forces unknown";
+    return {std::move(forces), std::move(description)};
   }
   const ForceRanges& r = need_ranges(ranges, options.file, "--state " + options.state);
   const auto row = [&](std::int64_t k, const std::string& description) -> ChosenState {
@@ -110,12 +123,32 @@ std::string resolve_format(const ExportOptions& options) {
   return extension.empty() ? "svg" : extension.substr(1);
 }
 
-/// A picture, a table, or the files of a scene in a folder that may be there.
+/// A picture, a table, files of other programs, or the files of a scene in a folder that may be there.
 void claim_outputs(const std::filesystem::path& output, const std::string& format, const Replacement& rule) {
+  if (format == "vtkhdf") return claim_output(output, FileKind::kVtk, rule);
+  if (format == "extxyz") {
+    claim_output(output, FileKind::kParticles, rule);
+    return claim_output(bonds_path_of(output), FileKind::kBonds, rule);
+  }
   if (format != "csv") return claim_output(output, FileKind::kPicture, rule);
   if (output.extension() == ".csv") return claim_output(output, FileKind::kContactTable, rule);
   if (!std::filesystem::is_directory(output)) return;  // made, or refused, by the writer
   for (const char* name : kSceneFiles) claim_output(output / name, FileKind::kCsvScene, rule);
+}
+
+/// All formats but those of pictures.
+void write_numbers(const std::filesystem::path& output, const std::string& format, const Packing& packing,
+                   const ChosenState& state, const ForceRanges* ranges, const Context& context) {
+  if (format == "vtkhdf") {
+    write_vtkhdf(output, packing, state.forces, ranges, {context.arguments, context.resolved_config, {}, {}});
+  } else if (format == "extxyz") {
+    write_bonds(bonds_path_of(output), packing, state.forces, ranges);
+    write_particles(output, packing);
+  } else if (output.extension() == ".csv") {
+    write_contact_table(output, packing, state.forces, ranges);
+  } else {
+    write_csv_scene(output, packing, state.forces);
+  }
 }
 
 int run(ExportOptions options, const Context& context) {
@@ -124,22 +157,26 @@ int run(ExportOptions options, const Context& context) {
   std::optional<ForceRanges> ranges;
   if (has_ranges(file)) ranges = read_ranges(file);
   const std::string format = resolve_format(options);
+  if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end())
+    throw InputError(fmt::format("{}: the formats are {}", options.output, fmt::join(kFormats, ", ")));
+  const bool is_picture = format == "svg" || format == "pdf" || format == "png";
+  if (!is_picture && options.style != "forces") {
+    throw InputError(fmt::format("--style has no effect on {}, which has all numbers; it is for pictures",
+                                 format == "csv" ? "CSV" : format));
+  }
   if (options.output.empty()) {
     options.output = std::filesystem::path(options.file).stem().string() + "." + format;
+  }
+  if (format == "extxyz" && std::filesystem::path(options.output).extension() != ".extxyz") {
+    throw InputError(fmt::format(
+        "{}: must end with .extxyz, for the bonds go to a second file, of this name with .bonds.dump",
+        options.output));
   }
   const ChosenState state = choose_state(options, packing, ranges);
   const std::filesystem::path output = options.output;
   claim_outputs(output, format, replacement_rule({options.file}, options.overwrite, context));
-  if (format == "csv") {
-    if (options.style != "forces")
-      throw InputError("--style has no effect on CSV, which has all numbers; it is for pictures");
-    if (output.extension() == ".csv") {
-      write_contact_table(output, packing, state.forces, ranges ? &*ranges : nullptr);
-    } else {
-      write_csv_scene(output, packing, state.forces);
-    }
-  } else if (format != "svg" && format != "pdf" && format != "png") {
-    throw InputError(fmt::format("{}: the formats are csv, svg, pdf, png", options.output));
+  if (!is_picture) {
+    write_numbers(output, format, packing, state, ranges ? &*ranges : nullptr, context);
   } else if (options.style == "delta-R") {
     const ForceRanges& r = need_ranges(ranges, options.file, "--style delta-R");
     draw_delta_R(output, packing, r.delta_R,
@@ -148,11 +185,12 @@ int run(ExportOptions options, const Context& context) {
     draw_forces(output, packing, state.forces, caption(options, packing, state.description));
   }
   if (context.json) {
-    std::cout << nlohmann::json{{"output", options.output}, {"format", format}, {"state", state.description}}
-                     .dump(2)
-              << '\n';
+    nlohmann::json json{{"output", options.output}, {"format", format}, {"state", state.description}};
+    if (format == "extxyz") json["bonds"] = bonds_path_of(output).string();
+    std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
-    fmt::print("written to {}\n", options.output);
+    fmt::print("written to {}{}\n", options.output,
+               format == "extxyz" ? " and " + bonds_path_of(output).string() : "");
   }
   return kDone;
 }
@@ -161,14 +199,14 @@ int run(ExportOptions options, const Context& context) {
 
 Command add_export(CLI::App& root) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = root.add_subcommand("export", "Draw a packing, or write it as CSV tables");
+  CLI::App* command = root.add_subcommand("export", "Draw a packing, or write it for other programs");
   command->add_option("file", options->file, "HDF5 file of a packing, with or without force ranges")
       ->required()
       ->type_name("FILE.h5");
   command
       ->add_option("--format", options->format,
                    "Format of the output (default: by the extension of -o, else svg)")
-      ->check(CLI::IsMember({"csv", "svg", "pdf", "png"}));
+      ->check(CLI::IsMember(std::vector<std::string>(kFormats.begin(), kFormats.end())));
   const auto check_state = [](const std::string& text) -> std::string {
     if (parse_state(text)) return "";
     return "must be sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C";
@@ -192,7 +230,8 @@ Command add_export(CLI::App& root) {
       "-o,--output", options->output,
       "File to write (default: FILE with another extension, in the current folder). With --format csv: "
       "NAME.csv is one table of contacts, with forces in mg; any other name is a folder for a CSV scene that "
-      "import reads");
+      "import reads. vtkhdf is for ParaView; extxyz is for OVITO, with the bonds in NAME.bonds.dump beside "
+      "it");
   add_overwrite_option(*command, options->overwrite);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }

@@ -144,12 +144,16 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"Lx", packing.origin.width},
       {"Ly", packing.origin.height},
       {"forces_known", contents.balance.forces_known},
+      {"known_forces", contents.balance.known_forces},
+      {"checked_disks", contents.balance.checked_disks},
       {"content_sha256", contents.digests.content},
       {"intact", contents.digests.match()},
       {"provenance", contents.provenance}};
-  if (contents.balance.forces_known) {
+  if (contents.balance.checked_disks > 0) {
     json["force_residual"] = contents.balance.force_residual;
     json["torque_residual"] = contents.balance.torque_residual;
+  }
+  if (contents.balance.any_known()) {
     json["coulomb_violations"] = contents.balance.coulomb_violations;
     json["sliding"] = contents.balance.sliding;
   }
@@ -218,15 +222,24 @@ void print_packing(const FileContents& contents) {
   print_line("  gravity",
              fmt::format("({:g}, {:g}); the unit of force is {:.6g}{}", packing.gravity.x(),
                          packing.gravity.y(), unit, packing.named_force_unit > 0 ? "" : " = mg"));
-  if (!contents.balance.forces_known) {
+  const BalanceReport& balance = contents.balance;
+  if (!balance.any_known()) {
     print_line("  simulated forces", "unknown");
     return;
   }
-  const BalanceReport& balance = contents.balance;
+  if (!balance.forces_known) {
+    print_line("  simulated forces",
+               fmt::format("{} of {} known; all of them on {} of {}", balance.known_forces,
+                           2 * packing.contact_count(), balance.checked_disks,
+                           counted(packing.free_disk_count(), "disk")));
+  }
   print_line("  simulated R", span_text(force, " mg"));
-  print_line("  balance",
-             fmt::format("force to {:.1e} mg, torque to {:.1e} mg r, {}", balance.force_residual,
-                         balance.torque_residual, counted(balance.coulomb_violations, "Coulomb violation")));
+  if (balance.checked_disks > 0) {
+    print_line("  balance",
+               fmt::format("force to {:.1e} mg, torque to {:.1e} mg r, {}{}", balance.force_residual,
+                           balance.torque_residual, counted(balance.coulomb_violations, "Coulomb violation"),
+                           balance.forces_known ? "" : " (of these disks)"));
+  }
   print_line("  at their limit", describe_sliding(balance.sliding, balance.non_transmitting));
 }
 

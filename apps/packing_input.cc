@@ -73,7 +73,12 @@ void refuse_text(const fs::path& path) {
 
 Hdf5File open_packing_or_ensemble(const fs::path& path) {
   try {
-    return open_on_trial(path);
+    Hdf5File file = open_on_trial(path);
+    if (kind_of(file) == FileKind::kVtk)
+      throw InputError(fmt::format(
+          "{}: holds contacts for readers of VTK, not a packing; give the file that it was exported from",
+          path.string()));
+    return file;
   } catch (const InputError&) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) refuse_folder(path);

@@ -17,11 +17,13 @@
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/sampling_file.h"
+#include "libindet/io/vtkhdf.h"
 #include "libindet/verify/bias_check.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/exact_check.h"
 #include "libindet/verify/outcome_check.h"
 #include "libindet/verify/samples_check.h"
+#include "libindet/verify/vtk_check.h"
 
 namespace indet::app {
 namespace {
@@ -54,6 +56,7 @@ std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
   if (has_ranges(file)) {
     ranges = read_ranges(file);
     parts.push_back({"force ranges", verify_ranges(packing, *ranges, context.progress())});
+    if (has_vtkhdf(file)) parts.push_back({"/VTKHDF", verify_vtkhdf(file, packing, *ranges)});
   }
   const ForceRanges* known = ranges ? &*ranges : nullptr;
   const auto check_samples = [&](const std::string& group, std::optional<SamplingRecord>& record) {

@@ -83,4 +83,5 @@ def main():
         print(f"distance {pair}: {mean(values)} mg")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -20,3 +20,5 @@ install(FILES ${PROJECT_BINARY_DIR}/indetConfig.cmake ${PROJECT_BINARY_DIR}/inde
 # The documents link to each other as they do in the source folder.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# What users run in other codes, so that indet can read their packings.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/exporters DESTINATION ${CMAKE_INSTALL_DATADIR}/indet)

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "libsim/lanes.h"
+#include "libsim/sweep.h"
 #include "libsim/sweep_order.h"
 
 namespace indet::sim {
@@ -68,7 +68,7 @@ struct SweepReport {
 /// Adds the impulses that the contacts carry to the velocities: to be called once before solving.
 void apply_impulses(std::span<const SolverContact> contacts, std::span<SolverBody> bodies);
 
-/// Sweeps over the contacts, two at a time and in the order of sweep_order.h. The order is kept from one
+/// Sweeps over the contacts in the order of sweep_order.h (sweep.h). The order is kept from one
 /// solution to the next as long as the contacts are between the same bodies.
 class ContactSolver {
  public:
@@ -78,37 +78,15 @@ class ContactSolver {
                     const SweepLimits& limits);
 
  private:
-  /// Two contacts side by side (lanes.h), and the rows of their bodies.
-  struct Pair {
-    std::array<int, 2> a, b;
-    Lanes nx, ny;
-    Lanes p_n, p_t;
-    Lanes bias_n, bias_t;
-    Lanes compliance;
-    Lanes scale_n, scale_t;
-    Lanes mu;
-    Lanes inverse_mass_a, inverse_mass_b;
-    Lanes turn_a, turn_b;  ///< α r²/I
-    Lanes arm_a, arm_b;
-  };
-  struct Row {
-    Lanes v{0, 0};
-    double s = 0;
-  };
-
   void load(std::span<const SolverContact> contacts, std::span<const SolverBody> bodies);
   void store(std::span<SolverContact> contacts, std::span<SolverBody> bodies) const;
-  /// Returns the largest change of an impulse component, or 0 without kMeasure.
-  template <bool kFriction, bool kArms, bool kOffset, bool kMeasure>
-  double sweep();
-  template <bool kFriction, bool kArms, bool kOffset>
-  SweepReport iterate(const SweepLimits& limits);
 
   std::vector<ContactEnds> ends_;
-  std::vector<ContactPair> order_;  ///< Of ends_.
-  std::vector<Pair> pairs_;
+  /// Contact in each place of the groups, −1 where there is none.
+  std::vector<std::array<int, 4>> order_;
+  std::vector<ContactGroup> groups_;
   /// One for each body, and spare ones at the end.
-  std::vector<Row> rows_;
+  std::vector<VelocityRow> rows_;
 };
 
 }  // namespace indet::sim

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "libindet/base/lanes.h"
 #include "libsim/force_law.h"
-#include "libsim/lanes.h"
 #include "libsim/neighbours.h"
 #include "libsim/stepper.h"
 

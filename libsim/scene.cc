@@ -115,7 +115,7 @@ std::optional<std::string> Scene::defect() const {
   }
   for (const Wall& w : walls) {
     if (!finite(w.point.sum()) || !(std::abs(w.normal.norm() - 1) < tolerance::kNormalLength)) {
-      return fmt::format("wall \"{}\": its normal must have length 1", w.name);
+      return fmt::format("wall \"{}\": its point must be finite, and its normal have length 1", w.name);
     }
   }
   const Scene full = resolved();
@@ -131,6 +131,31 @@ std::optional<std::string> Scene::defect() const {
   }
   return {};
 }
+
+namespace {
+
+/// Throws InputError if a disk of the grid starts beyond a wall, which would throw it out.
+void require_inside(const World& world, const Scene& full, double base) {
+  for (int i = 0; i < world.size(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const Vector2 centre(world.x[row], world.y[row]);
+    for (const Wall& wall : world.walls) {
+      const double gap = (centre - wall.point).dot(wall.normal) - world.radius[row];
+      // The sizes of a cell, and the coordinates that it is reckoned in, are rounded.
+      const double rounding = tolerance::kWallStart * std::max(full.radius_max, full.width + full.height);
+      if (gap >= -rounding) continue;
+      throw InputError(fmt::format(
+          "disk {} (centre ({:.6g}, {:.6g}), radius {:.6g}) starts {:.6g} inside wall {}: the grid of {} × "
+          "{} cells fills 0 ≤ x ≤ {:.6g}, {:.6g} ≤ y ≤ {:.6g}; move the wall, or turn its normal ({}, {}), "
+          "which points into the domain",
+          i, centre.x(), centre.y(), world.radius[row], -gap,
+          wall.name.empty() ? std::to_string(wall.id) : wall.name, full.columns, row_count(full), full.width,
+          base, base + full.height, wall.normal.x(), wall.normal.y()));
+    }
+  }
+}
+
+}  // namespace
 
 World build(const Scene& scene) {
   if (const auto reason = scene.defect()) throw InputError(*reason);
@@ -162,6 +187,7 @@ World build(const Scene& scene) {
              .mass = mass,
              .inertia = mass * radius * radius / 2});
   }
+  require_inside(world, full, base);
   return world;
 }
 

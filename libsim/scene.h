@@ -45,7 +45,8 @@ struct Scene {
 };
 
 /// Puts the disks on the grid, at rest. Row 0 is the lowest, so that neighbours in space are near in memory.
-/// Throws InputError with the scene's defect.
+/// The grid fills 0 ≤ x ≤ Lx, y_0 ≤ y ≤ y_0 + Ly; y_0 = 0, in a funnel the height of its sides. Throws
+/// InputError with the scene's defect, or if a disk starts inside a wall.
 World build(const Scene& scene);
 
 std::string to_string(Container container);

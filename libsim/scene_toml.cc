@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <cmath>
 #include <optional>
 
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 
 namespace indet::sim {
 namespace {
@@ -40,6 +42,16 @@ class Reader {
   std::string source_;
 };
 
+/// A normal of another length may be a misprint, so it is not made one silently.
+std::optional<std::string> defect_of_normal(const Vector2& normal) {
+  const double length = normal.norm();
+  if (std::abs(length - 1) <= tolerance::kNormalLength) return {};
+  std::string reason = fmt::format("must have length 1, but has length {:.6g}", length);
+  if (!std::isfinite(length) || length == 0) return reason;
+  const Vector2 unit = normal / length;
+  return reason + fmt::format("; in this direction that is [{:.12g}, {:.12g}]", unit.x(), unit.y());
+}
+
 Wall read_wall(const Reader& reader, const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) reader.fail(node, "wall", "must be a table");
@@ -55,7 +67,7 @@ Wall read_wall(const Reader& reader, const toml::node& node) {
       has_point = true;
     } else if (name == "normal") {
       wall.normal = reader.pair(value, name);
-      if (!(wall.normal.norm() > 0)) reader.fail(value, name, "must not be zero");
+      if (const auto reason = defect_of_normal(wall.normal)) reader.fail(value, name, *reason);
       wall.normal.normalize();
       has_normal = true;
     } else {

@@ -14,6 +14,11 @@ constexpr int kWindow = 64;
 
 constexpr int kNever = std::numeric_limits<int>::min() / 2;
 
+/// True if two contacts move one body.
+bool share(const ContactEnds& p, const ContactEnds& q) {
+  return p.a == q.a || p.a == q.b || (p.b >= 0 && (p.b == q.a || p.b == q.b));
+}
+
 }  // namespace
 
 std::vector<ContactPair> sweep_order(std::span<const ContactEnds> contacts, int bodies) {
@@ -51,6 +56,25 @@ std::vector<ContactPair> sweep_order(std::span<const ContactEnds> contacts, int 
     order.push_back(members);
   }
   return order;
+}
+
+std::vector<std::array<int, 4>> sweep_groups(std::span<const ContactPair> order,
+                                             std::span<const ContactEnds> contacts) {
+  std::vector<std::array<int, 4>> groups;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    groups.push_back({order[i][0], order[i][1], -1, -1});
+    if (i + 1 == order.size()) break;
+    const bool apart = std::all_of(order[i].begin(), order[i].end(), [&](int first) {
+      return std::all_of(order[i + 1].begin(), order[i + 1].end(), [&](int second) {
+        return first < 0 || second < 0 || !share(contacts[first], contacts[second]);
+      });
+    });
+    if (!apart) continue;
+    ++i;
+    groups.back()[2] = order[i][0];
+    groups.back()[3] = order[i][1];
+  }
+  return groups;
 }
 
 }  // namespace indet::sim

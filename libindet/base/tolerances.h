@@ -33,7 +33,20 @@ inline constexpr double kCancellingLoads = 1e-9;
 /// A fixed body takes a direction of force if its own is not perpendicular to it to this (radian).
 inline constexpr double kFreeDirection = 1e-9;
 
-// Dumps of LAMMPS.
+/// Lever arms that leave net torques up to this (mg) are taken for equally good.
+inline constexpr double kAlikeLevers = 1e-12;
+
+/// A disk lies at a side of the packing if it reaches to within this of the outermost one, relative to the
+/// largest radius; used to tell whether walls are missing.
+inline constexpr double kAtSide = 0.02;
+
+/// A disk whose kinetic energy is above this (mg times its radius) is said to move.
+inline constexpr double kMoving = 1e-6;
+
+/// Tangential forces up to this, relative to the normal ones, are none.
+inline constexpr double kNoTangentialForce = 1e-12;
+
+// Dumps of LAMMPS and other codes.
 
 /// Contact points of one wall: their normals differ by less than this (radian), and they lie this near to one
 /// line (relative to the largest radius).
@@ -332,6 +345,9 @@ inline constexpr double kNormalShift = 1e-10;
 /// A cell of the grid may be this much smaller than the largest disk (relative): rounding of a size that was
 /// chosen to fit.
 inline constexpr double kCellSize = 1e-14;
+
+/// A disk of the grid may begin this much beyond a wall, relative to the size of the grid: rounding of both.
+inline constexpr double kWallStart = 1e-12;
 
 /// A quotient this little below a whole number is that number.
 inline constexpr double kWholeNumber = 1e-9;

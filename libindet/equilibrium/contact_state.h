@@ -19,7 +19,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Pa
 double largest_imbalance(const Packing& packing, const SceneForces& forces);
 
 /// How a contact state stands to the Coulomb conditions [16], with tolerance ε (in the internal unit of
-/// force, which is mg unless the scene names a unit that says little about it).
+/// force, which is mg unless the scene names a unit that says little about it). Of an unknown force (NaN) no
+/// condition tells; R < 0 does without T.
 struct CoulombCount {
   int sliding = 0;             ///< μR − |T| < ε, counting a non-transmitting contact twice (Sec. II E)
   int non_transmitting = 0;    ///< R, |T| < ε

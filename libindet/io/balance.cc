@@ -10,29 +10,43 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
+#include "libindet/io/imbalance.h"
 
 namespace indet {
 
-BalanceReport report_balance(const ImportedPacking& imported) {
-  const Packing& packing = imported.packing;
-  BalanceReport report;
-  report.duplicates = imported.duplicates;
-  std::vector<bool> held(packing.disks.size(), false);
-  for (const Contact& contact : packing.contacts) {
-    held[static_cast<std::size_t>(contact.a.value())] = true;
-    if (!contact.b.is_wall()) held[static_cast<std::size_t>(contact.b.disk_id().value())] = true;
-  }
-  for (std::size_t i = held.size(); i-- > 0;) {
-    if (held[i] || packing.disks[i].fixed) continue;
-    ++report.loose_disks;
-    report.first_loose = DiskId(static_cast<std::int64_t>(i));
-  }
-  report.forces_known = packing.has_simulated_forces();
-  if (!report.forces_known) return report;
+namespace {
 
-  const SceneForces forces = packing.simulated_forces();
+/// What is known about the forces of each disk.
+struct DiskKnowledge {
+  std::vector<bool> held, complete;  ///< It has a contact; R and T of all its contacts are known.
+
+  explicit DiskKnowledge(const Packing& packing)
+      : held(packing.disks.size(), false), complete(packing.disks.size(), true) {
+    for (const Contact& contact : packing.contacts) {
+      const bool known = std::isfinite(contact.R) && std::isfinite(contact.T);
+      note(contact.a, known);
+      if (!contact.b.is_wall()) note(contact.b.disk_id(), known);
+    }
+  }
+
+ private:
+  void note(DiskId disk, bool known) {
+    const auto row = static_cast<std::size_t>(disk.value());
+    held[row] = true;
+    if (!known) complete[row] = false;
+  }
+};
+
+/// Net forces and torques of the disks whose forces are all known. A disk without contacts is one of them
+/// only where all other forces are known too: a list of measured forces may lack contacts.
+void report_residuals(const Packing& packing, const SceneForces& forces, const DiskKnowledge& knowledge,
+                      BalanceReport& report) {
   const auto residual = equilibrium_residual(packing, forces);
   for (int i = 0; i < packing.disk_count(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const bool checked = report.forces_known || (knowledge.held[row] && knowledge.complete[row]);
+    if (!checked || !packing.has_equations(DiskId(i))) continue;
+    ++report.checked_disks;
     const double force = std::hypot(residual(i, 0), residual(i, 1));
     if (force > report.force_residual) {
       report.force_residual = force;
@@ -52,6 +66,28 @@ BalanceReport report_balance(const ImportedPacking& imported) {
       report.worst_wall = WallId(w);
     }
   }
+}
+
+}  // namespace
+
+BalanceReport report_balance(const ImportedPacking& imported) {
+  const Packing& packing = imported.packing;
+  const DiskKnowledge knowledge(packing);
+  BalanceReport report;
+  report.duplicates = imported.duplicates;
+  for (std::size_t i = knowledge.held.size(); i-- > 0;) {
+    if (knowledge.held[i] || packing.disks[i].fixed) continue;
+    ++report.loose_disks;
+    report.first_loose = DiskId(static_cast<std::int64_t>(i));
+  }
+  report.forces_known = packing.has_simulated_forces();
+  for (const Contact& contact : packing.contacts) {
+    report.known_forces += (std::isfinite(contact.R) ? 1 : 0) + (std::isfinite(contact.T) ? 1 : 0);
+  }
+  if (!report.any_known()) return report;
+
+  const SceneForces forces = packing.simulated_forces();
+  report_residuals(packing, forces, knowledge, report);
   const CoulombCount coulomb = count_coulomb(packing, forces, tolerance::kSliding);
   report.coulomb_violations = coulomb.violated;
   report.worst_violation = coulomb.worst_violation;
@@ -83,7 +119,7 @@ double default_balance_tolerance(const ImportedPacking& imported) {
 
 void require_balance(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
   const double worst = std::max(report.force_residual, report.torque_residual);
-  if (!report.forces_known) return;
+  if (report.checked_disks == 0 && !report.forces_known) return;
   if (worst <= tolerance && report.wall_residual <= tolerance) return;
   if (report.wall_residual > worst) {
     const Wall& wall = imported.packing[report.worst_wall];
@@ -98,14 +134,25 @@ void require_balance(const ImportedPacking& imported, const BalanceReport& repor
   const bool loose = std::none_of(
       imported.packing.contacts.begin(), imported.packing.contacts.end(),
       [&](const Contact& c) { return c.a == disk || (!c.b.is_wall() && c.b.disk_id() == disk); });
-  throw InputError(fmt::format(
-      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. {}",
-      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance,
-      loose
-          ? "This disk has no contact: leave it out, or give the contacts that hold it."
-          : "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
-            "and their forces the normal and tangential ones on body a? If the deviation is acceptable, "
-            "raise --balance-tol; the ranges do not depend on the simulated forces."));
+  std::string message = fmt::format(
+      "the forces do not balance: on disk {} the net {} is {:.3g} mg, above {:.3g} mg. ",
+      imported.packing[disk].id, force ? "force" : "torque (divided by its radius)", worst, tolerance);
+  if (loose) {
+    message += "This disk has no contact: leave it out, or give the contacts that hold it.";
+  } else {
+    message +=
+        "Is the packing at rest, are gravity and loads those of the simulation, are all contacts listed "
+        "and their forces the normal and tangential ones on body a?";
+    const auto causes =
+        report.forces_known ? find_causes(imported, tolerance) : std::vector<ImbalanceCause>{};
+    for (const ImbalanceCause& cause : causes) {
+      message += fmt::format("\n  {} {}", cause.explains ? "→" : "-", cause.text);
+    }
+    message +=
+        "\nIf the deviation is acceptable, raise --balance-tol; the ranges do not depend on the simulated "
+        "forces.";
+  }
+  throw InputError(message);
 }
 
 }  // namespace indet

@@ -14,7 +14,9 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
-#include "libindet/io/table.h"
+#include "libindet/io/csv_table.h"
+#include "libindet/io/csv_writer.h"
+#include "libindet/io/import_format.h"
 #include "libindet/packing/cancelling_loads.h"
 #include "libindet/packing/validate.h"
 
@@ -211,7 +213,7 @@ ContactRows read_contacts(const Table& table, const Packing& packing, const IdMa
     contact.gap = table.number_or(row, "gap", geometric_gap(packing, contact.a, contact.b));
     contact.mu = read_friction(table, row, scene);
     contact.R = table.number_or(row, "R", kNaN);
-    contact.T = table.number_or(row, "T", kNaN);
+    contact.T = table.number_or(row, "T", contact.mu == 0 && std::isfinite(contact.R) ? 0 : kNaN);
     contact.lever_a = table.number_or(row, "lever_a", kNaN);
     contact.lever_b = table.number_or(row, "lever_b", kNaN);
     if (!packing.has_equations(contact.a) && !packing.has_equations(contact.b)) continue;
@@ -276,6 +278,21 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   }
   warn_of_large_gaps(imported);
   return imported;
+}
+
+ImportFormat csv_format() {
+  return {.name = "csv",
+          .input = "the folder with disks.csv, contacts.csv, walls.csv, scene.toml",
+          .options = {},
+          .documented = {Lever::kRadius, Lever::kRadius},
+          .lacks_friction = "",
+          .files =
+              [](const ImportRequest& request) {
+                std::vector<fs::path> files;
+                for (const char* name : kSceneFiles) files.push_back(request.input / name);
+                return files;
+              },
+          .read = [](const ImportRequest& request) { return read_csv_scene(request.input); }};
 }
 
 }  // namespace indet

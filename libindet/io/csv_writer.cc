@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/io/contact_columns.h"
+#include "libindet/io/file_ids.h"
 #include "libindet/io/whole_file.h"
-#include "libindet/range/result_fields.h"
 
 namespace indet {
 namespace {
@@ -36,31 +35,6 @@ std::string quoted(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.empty() ? text : "\"" + text + "\"";
 }
-
-/// The ids under which bodies appear in the files: their own, or their rows if those are not fit for it.
-template <class Item>
-std::vector<std::int32_t> file_ids(const std::vector<Item>& items) {
-  std::vector<std::int32_t> ids;
-  std::set<std::int32_t> seen;
-  for (const Item& item : items) {
-    ids.push_back(item.id);
-    if (item.id >= 0) seen.insert(item.id);
-  }
-  if (seen.size() == items.size()) return ids;
-  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
-  return ids;
-}
-
-struct FileIds {
-  std::vector<std::int32_t> disks, walls;
-
-  explicit FileIds(const Packing& packing) : disks(file_ids(packing.disks)), walls(file_ids(packing.walls)) {}
-  std::int32_t of(DiskId disk) const { return disks[static_cast<std::size_t>(disk.value())]; }
-  std::int32_t of(Body body) const {
-    return body.is_wall() ? -(walls[static_cast<std::size_t>(body.wall_id().value())] + 1)
-                          : of(body.disk_id());
-  }
-};
 
 /// Adds the header and the columns that follow it.
 void begin_table(std::string& text, std::string_view header, bool has_more, std::string_view more) {
@@ -135,35 +109,6 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
   write_whole_file(folder / "contacts.csv", contacts_text(packing, ids, forces));
   write_whole_file(folder / "scene.toml", scene_text(packing));
 }
-
-namespace {
-
-/// One column of the ranges: a field with one number a contact, forces in mg and named so. An end of a range
-/// is followed by its outcome.
-struct RangeColumn {
-  std::string name;
-  Eigen::VectorXd values;
-  std::optional<Column> end;
-};
-
-std::vector<RangeColumn> range_columns(const ForceRanges& ranges, double mg) {
-  std::vector<RangeColumn> columns;
-  visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {
-    if constexpr (requires { requires Value::ColsAtCompileTime == 1; }) {
-      if (field.rows != Extent::kContacts) return;
-      RangeColumn& column = columns.emplace_back(field.name, value.template cast<double>());
-      for (const Column end : {kMinR, kMaxR, kMinT, kMaxT}) {
-        if (column.name == to_string(end)) column.end = end;
-      }
-      const std::string_view unit = field.unit;
-      if (unit == "force") column.values /= mg;
-      if (unit == "force" || unit == "mg") column.name += "_mg";
-    }
-  });
-  return columns;
-}
-
-}  // namespace
 
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
                          const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges) {

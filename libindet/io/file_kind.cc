@@ -8,8 +8,10 @@
 
 #include "libindet/base/error.h"
 #include "libindet/io/csv_writer.h"
+#include "libindet/io/ovito_files.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/picture_mark.h"
+#include "libindet/io/vtkhdf.h"
 
 namespace indet {
 namespace {
@@ -71,6 +73,12 @@ const char* describe(FileKind kind) {
       return "a table of contacts";
     case FileKind::kCsvScene:
       return "a part of a CSV scene";
+    case FileKind::kVtk:
+      return "contacts for readers of VTK";
+    case FileKind::kParticles:
+      return "particles for OVITO";
+    case FileKind::kBonds:
+      return "bonds for OVITO";
     case FileKind::kReport:
       return "the report of an ensemble";
   }
@@ -83,6 +91,7 @@ FileKind kind_of(const Hdf5File& file) {
   if (file.has("/checkpoint")) return FileKind::kCheckpoint;
   if (file.has("/ranges")) return FileKind::kRanges;
   if (file.has("/sampling")) return FileKind::kSamples;
+  if (has_vtkhdf(file) && !file.has("/contacts")) return FileKind::kVtk;
   return FileKind::kPacking;
 }
 
@@ -92,6 +101,8 @@ std::optional<FileKind> recognise(const fs::path& path) {
   if (is_marked_picture(head, tail)) return FileKind::kPicture;
   if (is_contact_table(head)) return FileKind::kContactTable;
   if (is_scene_table(head)) return FileKind::kCsvScene;
+  if (is_particle_file(head)) return FileKind::kParticles;
+  if (is_bond_file(head)) return FileKind::kBonds;
   if (head.starts_with(kPlanBegin)) return FileKind::kPlan;
   if (head.starts_with("<!DOCTYPE html>") && head.find(kReportTitle) != std::string::npos)
     return FileKind::kReport;

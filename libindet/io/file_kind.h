@@ -20,6 +20,9 @@ enum class FileKind {
   kPicture,       ///< export, trajectory: .svg, .pdf, .png
   kContactTable,  ///< export: one .csv
   kCsvScene,      ///< export: a file of the folder of a scene
+  kVtk,           ///< export: .vtkhdf
+  kParticles,     ///< export: .extxyz
+  kBonds,         ///< export: the .bonds.dump beside it
   kReport,        ///< report
 };
 

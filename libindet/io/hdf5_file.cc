@@ -101,6 +101,13 @@ void Hdf5File::write(const std::string& path, std::span<const std::int32_t> valu
               shape, label);
 }
 
+void Hdf5File::write(const std::string& path, std::span<const std::int64_t> values, const Shape& shape,
+                     const Label& label) {
+  const Silence silence;
+  hdf5::write(state_->session, path, values.data(), values.size(), {H5T_STD_I64LE, H5T_NATIVE_INT64, 8},
+              shape, label);
+}
+
 void Hdf5File::write(const std::string& path, std::span<const std::uint8_t> values, const Shape& shape,
                      const Label& label) {
   const Silence silence;
@@ -168,6 +175,16 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                 values.data());
 }
 
+void Hdf5File::set_fixed_text(const std::string& object, const std::string& name, const std::string& value) {
+  const Silence silence;
+  hdf5::set_fixed_text(state_->session, object, name, value);
+}
+
+void Hdf5File::link(const std::string& object, const std::string& path) {
+  const Silence silence;
+  hdf5::link(state_->session, object, path);
+}
+
 void Hdf5File::commit() {
   const Silence silence;
   state_->target->commit(hdf5::close_to_bytes(state_->session));
@@ -203,6 +220,13 @@ std::vector<std::int32_t> Hdf5File::read_integers(const std::string& path, const
   const hdf5::Session& session = state_->session;
   const Handle dataset = hdf5::open_checked(session, path, {H5T_INTEGER, "integers of 32 bits", 4}, shape);
   return hdf5::read_all<std::int32_t>(session, dataset, H5T_NATIVE_INT32, shape, path);
+}
+
+std::vector<std::int64_t> Hdf5File::read_long_integers(const std::string& path, const Shape& shape) const {
+  const Silence silence;
+  const hdf5::Session& session = state_->session;
+  const Handle dataset = hdf5::open_checked(session, path, {H5T_INTEGER, "integers of 64 bits", 8}, shape);
+  return hdf5::read_all<std::int64_t>(session, dataset, H5T_NATIVE_INT64, shape, path);
 }
 
 std::vector<std::uint8_t> Hdf5File::read_bytes(const std::string& path, const Shape& shape) const {
@@ -282,6 +306,11 @@ std::vector<double> Hdf5File::doubles_attribute(const std::string& object, const
   auto values = hdf5::attribute_numbers(session, hdf5::open_attribute(session, object, name), place, count);
   if (values.size() != count) session.fail(place, fmt::format("must have {} values", count));
   return values;
+}
+
+bool Hdf5File::is_same(const std::string& path, const std::string& other) const {
+  const Silence silence;
+  return hdf5::is_same(state_->session, path, other);
 }
 
 std::map<std::string, double> Hdf5File::number_attributes(const std::string& object) const {

@@ -61,6 +61,8 @@ class Hdf5File {
   void write(const std::string& path, std::span<const double> values, const Shape& shape, const Label& label);
   void write(const std::string& path, std::span<const std::int32_t> values, const Shape& shape,
              const Label& label);
+  void write(const std::string& path, std::span<const std::int64_t> values, const Shape& shape,
+             const Label& label);
   void write(const std::string& path, std::span<const std::uint8_t> values, const Shape& shape,
              const Label& label);
   void write_enum(const std::string& path, std::span<const std::uint8_t> values, const Shape& shape,
@@ -76,6 +78,10 @@ class Hdf5File {
   void set_attribute(const std::string& object, const std::string& name, std::span<const double> values);
   void set_attribute(const std::string& object, const std::string& name,
                      std::span<const std::int64_t> values);
+  /// Text of fixed length, in ASCII: other formats ask for it.
+  void set_fixed_text(const std::string& object, const std::string& name, const std::string& value);
+  /// A second name, `path`, for an object that is there.
+  void link(const std::string& object, const std::string& path);
   /// The file takes its name; this object can only be destroyed afterwards. Throws LibraryError if writing
   /// fails (a full disk).
   void commit();
@@ -86,6 +92,7 @@ class Hdf5File {
   Shape shape(const std::string& path, std::size_t rank) const;
   std::vector<double> read_doubles(const std::string& path, const Shape& shape) const;
   std::vector<std::int32_t> read_integers(const std::string& path, const Shape& shape) const;
+  std::vector<std::int64_t> read_long_integers(const std::string& path, const Shape& shape) const;
   std::vector<std::uint8_t> read_bytes(const std::string& path, const Shape& shape) const;
   /// Also checks that the enumeration has these names and that every value is one of them.
   std::vector<std::uint8_t> read_enum(const std::string& path, const Shape& shape,
@@ -97,6 +104,8 @@ class Hdf5File {
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
   std::vector<double> doubles_attribute(const std::string& object, const std::string& name,
                                         std::size_t count) const;
+  /// Whether two paths lead to one object.
+  bool is_same(const std::string& path, const std::string& other) const;
   /// The attributes of an object that are single numbers.
   std::map<std::string, double> number_attributes(const std::string& object) const;
 

@@ -215,4 +215,13 @@ bool is_dataset(const Session& session, const std::string& object) {
   return H5Iget_type(open_object(session, object).get()) == H5I_DATASET;
 }
 
+bool is_same(const Session& session, const std::string& object, const std::string& other) {
+  const auto address = [&](const std::string& path) {
+    H5O_info_t info;
+    session.check(H5Oget_info(open_object(session, path).get(), &info), path);
+    return info.addr;
+  };
+  return address(object) == address(other);
+}
+
 }  // namespace indet::hdf5

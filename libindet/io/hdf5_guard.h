@@ -66,5 +66,7 @@ std::vector<std::string> children(const Session& session, const std::string& gro
 /// `object` and everything below it, in depth first; groups nested too deeply are refused.
 std::vector<std::string> tree(const Session& session, const std::string& object);
 bool is_dataset(const Session& session, const std::string& object);
+/// Whether two paths lead to one object.
+bool is_same(const Session& session, const std::string& object, const std::string& other);
 
 }  // namespace indet::hdf5

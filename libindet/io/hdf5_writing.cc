@@ -94,6 +94,21 @@ void set_texts(const Session& session, const std::string& object, const std::str
   set_strings(session, object, name, values, {values.size()});
 }
 
+void set_fixed_text(const Session& session, const std::string& object, const std::string& name,
+                    const std::string& value) {
+  const Handle type = session.own(H5Tcopy(H5T_C_S1), object);
+  session.check(H5Tset_size(type.get(), value.size()), object);
+  session.check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), object);
+  set_raw(session, object, name, type.get(), type.get(), {}, value.data());
+}
+
+void link(const Session& session, const std::string& object, const std::string& path) {
+  make_parents(session, path);
+  session.check(H5Lcreate_hard(session.file.get(), object.c_str(), session.file.get(), path.c_str(),
+                               H5P_DEFAULT, H5P_DEFAULT),
+                path);
+}
+
 std::vector<unsigned char> close_to_bytes(Session& session) {
   session.check(H5Fflush(session.file.get(), H5F_SCOPE_GLOBAL), "flush");
   const ssize_t size = H5Fget_file_image(session.file.get(), nullptr, 0);

@@ -31,6 +31,12 @@ void set_text(const Session& session, const std::string& object, const std::stri
 void set_texts(const Session& session, const std::string& object, const std::string& name,
                const std::vector<std::string>& values);
 
+/// Text of fixed length in ASCII.
+void set_fixed_text(const Session& session, const std::string& object, const std::string& name,
+                    const std::string& value);
+/// A second name, `path`, for `object`.
+void link(const Session& session, const std::string& object, const std::string& path);
+
 /// The bytes of the file, whose handle is closed.
 std::vector<unsigned char> close_to_bytes(Session& session);
 

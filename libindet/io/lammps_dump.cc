@@ -16,8 +16,9 @@ struct FrameHeader {
   std::int64_t timestep = 0;
   std::int64_t rows = 0;   ///< As announced.
   std::int64_t found = 0;  ///< As counted.
-  std::array<double, 2> low{}, high{};
-  std::array<bool, 2> periodic{};
+  std::array<double, 3> low{}, high{};
+  std::array<bool, 3> periodic{};
+  bool tilted = false;
   int columns_line = 0;
   std::vector<std::string> columns;
   LineReader body{""};
@@ -69,34 +70,53 @@ class DumpIndex {
     return value;
   }
 
+  /// `words`: of "ITEM: BOX BOUNDS [xy xz yz | abc origin] [pp ff mm]".
   void read_box(const std::vector<std::string_view>& words, FrameHeader& frame) {
+    const bool general = words.size() > 4 && words[3] == "abc" && words[4] == "origin";
+    frame.tilted = general || (words.size() > 3 && words[3] == "xy");
+    const std::size_t count = general ? 4 : 2;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       need_line();
-      if (axis == 2) break;
-      const auto bounds = split_words(line_);
-      if (bounds.size() < 2 || !parse_number(bounds[0], &frame.low[axis]) ||
-          !parse_number(bounds[1], &frame.high[axis])) {
-        fail("the bounds of the box must be two numbers");
+      const auto fields = split_words(line_);
+      std::array<double, 4> numbers{};
+      bool valid = fields.size() >= count;
+      for (std::size_t i = 0; valid && i < count; ++i) valid = parse_number(fields[i], &numbers[i]);
+      if (!valid) {
+        fail(general ? "an edge vector of the box and a component of its origin must be four numbers"
+                     : "the bounds of the box must be two numbers");
       }
-      // The boundary flags are the last three words: "ff pp ff".
-      frame.periodic[axis] = words.size() >= 3 && words[words.size() - 3 + axis].starts_with('p');
+      if (general) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          (numbers[i] < 0 ? frame.low : frame.high)[i] += numbers[i];
+        }
+        frame.low[axis] += numbers[3];
+        frame.high[axis] += numbers[3];
+      } else {
+        frame.low[axis] = numbers[0];
+        frame.high[axis] = numbers[1];
+      }
+      // The boundary flags are the last three words; dumps of old versions have none.
+      const std::string_view flag = words.size() >= 6 ? words[words.size() - 3 + axis] : std::string_view();
+      frame.periodic[axis] = flag.starts_with('p');
     }
   }
 
   FrameHeader read_frame() {
-    if (trimmed(line_) != "ITEM: TIMESTEP") {
-      fail(frames_.empty() ? "this is not a LAMMPS text dump: it does not begin with ITEM: TIMESTEP"
-                           : "a frame must begin with ITEM: TIMESTEP");
-    }
     FrameHeader frame;
-    frame.timestep = whole_number("timestep");
+    bool has_timestep = false;
     std::string label;
     while (true) {
-      need_line();
       auto words = split_words(line_);
-      if (words.size() < 2 || words[0] != "ITEM:") fail("a line that begins with ITEM: is expected");
+      if (words.size() < 2 || words[0] != "ITEM:") {
+        fail(frames_.empty() && !has_timestep && frame.rows == 0
+                 ? "this is not a LAMMPS text dump: it does not begin with ITEM: TIMESTEP"
+                 : "a line that begins with ITEM: is expected");
+      }
       const std::string_view item = trimmed(trimmed(line_).substr(5));
-      if (item.starts_with("NUMBER OF ")) {
+      if (item == "TIMESTEP") {
+        frame.timestep = whole_number("timestep");
+        has_timestep = true;
+      } else if (item.starts_with("NUMBER OF ")) {
         label = trimmed(item.substr(10));
         frame.rows = whole_number("number of rows");
       } else if (item.starts_with("BOX BOUNDS")) {
@@ -104,6 +124,7 @@ class DumpIndex {
       } else if (item == "UNITS" || item == "TIME") {
         need_line();
       } else if (!label.empty() && item.starts_with(label)) {
+        if (!has_timestep) fail("the header of the frame has no ITEM: TIMESTEP");
         for (const std::string_view word : split_words(item.substr(label.size()))) {
           frame.columns.emplace_back(word);
         }
@@ -111,6 +132,13 @@ class DumpIndex {
       } else {
         fail(fmt::format("ITEM: {} is unknown", item));
       }
+      need_line();
+    }
+    if (frame.columns.empty()) {
+      fail(
+          fmt::format("ITEM: {} names no columns, as in dumps of very old versions of LAMMPS; write them "
+                      "behind it, for example \"id type x y radius mass\"",
+                      label));
     }
     frame.columns_line = lines_.line_number();
     frame.body = lines_;
@@ -139,8 +167,9 @@ DumpFrame read_dump_frame(const std::filesystem::path& path, std::optional<std::
         fmt::format("{}: the frame of timestep {} has only {} of its {} rows; the file is truncated",
                     path.string(), header.timestep, header.found, header.rows));
   }
-  DumpFrame frame{header.timestep, header.low, header.high, header.periodic,
-                  Table(path.string(), text, header.columns_line, header.columns)};
+  DumpFrame frame{header.timestep, header.low,
+                  header.high,     header.periodic,
+                  header.tilted,   Table(path.string(), text, header.columns_line, header.columns)};
   LineReader lines = header.body;
   std::string_view line;
   while (frame.table.rows() < header.rows && lines.next(&line)) {
@@ -148,6 +177,23 @@ DumpFrame read_dump_frame(const std::filesystem::path& path, std::optional<std::
     if (!words.empty()) frame.table.add_row(lines.line_number(), std::move(words));
   }
   return frame;
+}
+
+bool DumpPair::is_periodic(const Plane& plane) const {
+  return atoms.periodic[static_cast<std::size_t>(plane.first)] ||
+         atoms.periodic[static_cast<std::size_t>(plane.second)];
+}
+
+DumpPair read_dumps(const DumpFiles& files) {
+  DumpPair dumps{read_dump_frame(files.atoms, files.timestep),
+                 read_dump_frame(files.contacts, files.timestep)};
+  if (dumps.atoms.timestep != dumps.contacts.timestep) {
+    throw InputError(fmt::format(
+        "{} ends with timestep {}, {} with {}; choose a timestep that both have with "
+        "--timestep",
+        files.atoms.string(), dumps.atoms.timestep, files.contacts.string(), dumps.contacts.timestep));
+  }
+  return dumps;
 }
 
 }  // namespace indet

@@ -3,18 +3,15 @@
 #include "libindet/io/imported_packing.h"
 #include "libindet/io/lammps_columns.h"
 #include "libindet/io/lammps_dump.h"
-#include "libindet/io/lammps_reader.h"
 
 namespace indet {
 
-/// What two dumps hold and a packing does not.
-struct LammpsRemainder {
-  double discarded = 0;  ///< Largest part of a force that the projections on normal and tangent drop.
-  int apart = 0;         ///< Pairs that neither touch nor push each other.
-};
+/// Warns where numbers were printed with few digits, and sets `imported.rounding`; warns where normal forces
+/// have tangential parts or tangential ones normal parts, of which `odd_parts` is the largest.
+void warn_of_rounding(ImportedPacking& imported, const DumpPair& dumps, const LammpsColumns& names,
+                      double odd_parts);
 
-/// Appends what the user should know about the dumps to `imported.warnings`, and sets `imported.rounding`.
-void warn_of_oddities(ImportedPacking& imported, const LammpsOptions& options, const LammpsColumns& columns,
-                      const DumpFrame& atoms, const LammpsRemainder& remainder);
+/// Warns of atoms outside the box or behind a wall.
+void warn_of_atoms_outside(ImportedPacking& imported, const DumpFrame& atoms, const Plane& plane);
 
 }  // namespace indet

@@ -14,6 +14,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/io/reactions_file.h"
+#include "libindet/io/vtkhdf.h"
 #include "libindet/range/result_fields.h"
 
 namespace indet {
@@ -259,6 +260,7 @@ void write_ranges(const std::filesystem::path& path, const Packing& packing, con
   write_header(file, schema_of(packing));
   write_packing_part(file, packing);
   write_ranges_part(file, ranges);
+  write_vtkhdf_part(file, packing, ranges);
   Provenance all = provenance;
   all.seconds.insert(ranges.seconds.begin(), ranges.seconds.end());
   write_provenance_part(file, all);

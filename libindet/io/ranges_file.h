@@ -8,8 +8,8 @@
 namespace indet {
 
 /// Writes a packing and its force ranges into one file (docs/file-format.md), so that the file can be checked
-/// and drawn without any other. `ranges.seconds` joins the timings of `provenance`. Throws like
-/// write_packing; the rows of the tables must be the contacts of the packing.
+/// and drawn without any other, also by readers of VTK (io/vtkhdf.h). `ranges.seconds` joins the timings of
+/// `provenance`. Throws like write_packing; the rows of the tables must be the contacts of the packing.
 void write_ranges(const std::filesystem::path& path, const Packing& packing, const ForceRanges& ranges,
                   const Provenance& provenance);
 

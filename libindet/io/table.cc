@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <system_error>
@@ -13,6 +14,8 @@
 
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
+#include "libindet/io/gzip.h"
+#include "libindet/io/utf8.h"
 
 namespace indet {
 namespace {
@@ -31,33 +34,6 @@ bool parse_whole(std::string_view text, T* value) {
   return error == std::errc() && stop == end && !text.empty();
 }
 
-/// The part of a line before a comment. A # within quotes does not begin one.
-std::string_view without_comment(std::string_view line) {
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') quoted = !quoted;
-    if (line[i] == '#' && !quoted) return line.substr(0, i);
-  }
-  return line;
-}
-
-std::vector<std::string_view> split_fields(std::string_view line) {
-  std::vector<std::string_view> fields;
-  bool quoted = false;
-  std::size_t start = 0;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i < line.size() && (line[i] != ',' || quoted)) continue;
-    std::string_view field = trimmed(line.substr(start, i - start));
-    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
-      field = trimmed(field.substr(1, field.size() - 2));
-    }
-    fields.push_back(field);
-    start = i + 1;
-  }
-  return fields;
-}
-
 }  // namespace
 
 std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) {
@@ -73,10 +49,12 @@ std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) 
   auto text =
       std::make_shared<std::string>(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   if (stream.bad()) throw InputError(fmt::format("{}: reading failed", path.string()));
+  if (is_gzip(*text)) *text = unpack_gzip(*text, path.string());
   if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF")) {
     throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", path.string()));
   }
   if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
+  require_utf8(path, *text);
   return text;
 }
 
@@ -126,11 +104,11 @@ Table::Table(std::string source, std::shared_ptr<const std::string> text, int he
   }
 }
 
-void Table::add_row(int line, std::vector<std::string_view> fields) {
+void Table::add_row(int line, std::vector<std::string_view> fields, std::string_view advice) {
   if (fields.size() != columns_.size()) {
-    throw InputError(fmt::format("{}:{}: {}, but there are {} columns ({})", source_, line,
+    throw InputError(fmt::format("{}:{}: {}, but there are {} columns ({}){}", source_, line,
                                  counted(static_cast<std::int64_t>(fields.size()), "field"), columns_.size(),
-                                 fmt::join(columns_, ", ")));
+                                 fmt::join(columns_, ", "), advice));
   }
   lines_.push_back(line);
   fields_.insert(fields_.end(), fields.begin(), fields.end());
@@ -165,6 +143,12 @@ double Table::number(int row, std::string_view column) const {
   double value = 0;
   if (parse_number(field, &value)) return value;
   if (field.empty()) fail(row, column, "the field is empty");
+  if (field.find(',') != std::string_view::npos) {
+    fail(row, column,
+         fmt::format("\"{}\" is not a number: it must have a decimal point and no separator of thousands "
+                     "(a decimal comma is read where semicolons separate the fields)",
+                     field));
+  }
   fail(row, column, fmt::format("\"{}\" is not a number (or outside the range of a double)", field));
 }
 
@@ -175,7 +159,13 @@ double Table::number_or(int row, std::string_view column, double fallback) const
 std::int32_t Table::integer(int row, std::string_view column) const {
   const std::string_view field = text(row, column);
   std::int64_t value = 0;
-  if (!parse_number(field, &value)) fail(row, column, fmt::format("\"{}\" is not a whole number", field));
+  if (!parse_number(field, &value)) {
+    double real = 0;
+    if (!parse_number(field, &real) || std::trunc(real) != real || std::abs(real) > 1e15) {
+      fail(row, column, fmt::format("\"{}\" is not a whole number", field));
+    }
+    value = static_cast<std::int64_t>(real);
+  }
   if (value < std::numeric_limits<std::int32_t>::min() || value > std::numeric_limits<std::int32_t>::max()) {
     fail(row, column, fmt::format("{} does not fit into 32 bits", value));
   }
@@ -188,34 +178,6 @@ void Table::fail(int row, const std::string& reason) const {
 
 void Table::fail(int row, std::string_view column, const std::string& reason) const {
   throw InputError(fmt::format("{}:{}: column {}: {}", source_, line(row), column, reason));
-}
-
-Table read_csv(const std::filesystem::path& path) {
-  const auto text = read_text(path);
-  LineReader lines(*text);
-  std::string_view line;
-  const auto next_row = [&] {
-    while (lines.next(&line)) {
-      line = without_comment(line);
-      if (!trimmed(line).empty()) return true;
-    }
-    return false;
-  };
-  if (!next_row()) throw InputError(fmt::format("{}: the file is empty; it needs a header", path.string()));
-  std::vector<std::string> columns;
-  for (const std::string_view field : split_fields(line)) columns.emplace_back(field);
-  double value = 0;
-  if (parse_number(columns.front(), &value)) {
-    throw InputError(fmt::format("{}:{}: the first line must name the columns, but begins with the number {}",
-                                 path.string(), lines.line_number(), columns.front()));
-  }
-  if (columns.size() == 1 && line.find_first_of(";\t") != std::string_view::npos) {
-    throw InputError(
-        fmt::format("{}:{}: fields must be separated by commas", path.string(), lines.line_number()));
-  }
-  Table table(path.string(), text, lines.line_number(), std::move(columns));
-  while (next_row()) table.add_row(lines.line_number(), split_fields(line));
-  return table;
 }
 
 }  // namespace indet

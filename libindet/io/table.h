@@ -10,8 +10,8 @@
 
 namespace indet {
 
-/// The text of a file. Throws InputError if it cannot be read. A UTF-8 byte order mark is dropped; UTF-16 is
-/// refused.
+/// The text of a file, unpacked if it is a gzip file; it must be UTF-8, of which a byte order mark is
+/// dropped. Throws InputError if it cannot be read, or with the line that holds other bytes.
 std::shared_ptr<const std::string> read_text(const std::filesystem::path& path);
 
 /// One number, independent of the locale: "1", "-1.5e3", "+2", "nan", "inf". The whole of `text` must be the
@@ -29,8 +29,8 @@ class Table {
   Table(std::string source, std::shared_ptr<const std::string> text, int header_line,
         std::vector<std::string> columns);
 
-  /// Throws if the number of fields is not that of the columns.
-  void add_row(int line, std::vector<std::string_view> fields);
+  /// Throws if the number of fields is not that of the columns; `advice` is added to the message.
+  void add_row(int line, std::vector<std::string_view> fields, std::string_view advice = {});
 
   int rows() const { return static_cast<int>(lines_.size()); }
   int line(int row) const { return lines_[static_cast<std::size_t>(row)]; }
@@ -49,6 +49,7 @@ class Table {
   std::string_view text(int row, std::string_view column) const;
   double number(int row, std::string_view column) const;
   double number_or(int row, std::string_view column, double fallback) const;
+  /// A whole number, also as "3.0": pandas writes it so where the column has had an empty field.
   std::int32_t integer(int row, std::string_view column) const;
 
   /// Throws InputError: source, line, column if one is given, reason.
@@ -82,10 +83,5 @@ class LineReader {
 std::string_view trimmed(std::string_view text);
 /// Split at runs of white space.
 std::vector<std::string_view> split_words(std::string_view line);
-
-/// Reads a comma-separated file: a header with the names of the columns, then one row a line. Blank lines and
-/// everything from # to the end of the line are skipped; a field may stand in double quotes. Throws
-/// InputError.
-Table read_csv(const std::filesystem::path& path);
 
 }  // namespace indet

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -125,12 +127,35 @@ Reason normal_defect(const Packing& packing, const Contact& contact) {
       contact.normal.x(), contact.normal.y(), expected.x(), expected.y());
 }
 
+/// Bodies that touch are nearer than the radius of the smaller one. Its centre is not behind a wall, and it is
+/// not wholly inside of a disk.
+Reason gap_defect(const Packing& packing, const Contact& contact) {
+  const Disk& a = packing[contact.a];
+  const double gap = geometric_gap(packing, contact.a, contact.b);
+  const double radius =
+      contact.b.is_wall() ? a.radius : std::min(a.radius, packing[contact.b.disk_id()].radius);
+  const std::string other = contact.b.is_wall() ? fmt::format("wall {}", packing[contact.b.wall_id()].id)
+                                                : fmt::format("disk {}", packing[contact.b.disk_id()].id);
+  if (gap > radius) {
+    return fmt::format("disk {} and {} are {:.6g} apart, more than the radius {:.6g}: they do not touch",
+                       a.id, other, gap, radius);
+  }
+  if (gap > (contact.b.is_wall() ? -radius : -2 * radius)) return {};
+  if (contact.b.is_wall()) {
+    return fmt::format("the centre of disk {} is behind {}: does the normal ({}, {}) point into the domain?",
+                       a.id, other, contact.normal.x(), contact.normal.y());
+  }
+  return fmt::format("disk {} and {} overlap by {:.6g}, more than the diameter {:.6g} of the smaller one", a.id,
+                     other, -gap, 2 * radius);
+}
+
 Reason contact_defect(const Packing& packing, const Contact& contact) {
   return first_of(
       [&] { return index_defect(packing, contact); }, [&] { return negative("mu", contact.mu); },
       [&] { return not_finite("nx", contact.normal.x()); },
       [&] { return not_finite("ny", contact.normal.y()); }, [&] { return not_finite("gap", contact.gap); },
-      [&] { return normal_defect(packing, contact); }, [&] { return levers_defect(packing, contact); },
+      [&] { return normal_defect(packing, contact); }, [&] { return gap_defect(packing, contact); },
+      [&] { return levers_defect(packing, contact); },
       [&]() -> Reason {  // NaN means "unknown"
         if (!std::isinf(contact.R) && !std::isinf(contact.T)) return {};
         return "R and T must be finite or unknown";

@@ -17,31 +17,81 @@ namespace {
 /// Walks at N = 95 take some tens of steps.
 constexpr std::int64_t kStepLimit = 100000;
 
+/// The inverse of the active rows S_N: column k is the direction of the edge on which the inequality at place
+/// k is relaxed. Follows a change of one row by a change of rank one (d²), and is computed anew (d³) before
+/// rounding adds up.
+class EdgeDirections {
+ public:
+  EdgeDirections(const SlopeView& view, const Basis& basis) { compute(view, basis); }
+
+  bool are_lost() const { return lost_; }
+  auto direction(int place) const { return inverse_.col(place); }
+  /// Of the objective along each edge.
+  Eigen::VectorXd slopes(const Objective& objective) const {
+    return inverse_.transpose() * objective.along_z;
+  }
+
+  void compute(const SlopeView& view, const Basis& basis) {
+    changes_ = 0;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(view.slope(basis, Eigen::all));
+    const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
+    lost_ = !(pivots.minCoeff() > tolerance::kLostDirections * pivots.maxCoeff());
+    if (!lost_) inverse_ = factors.inverse();
+  }
+
+  /// After the row at `place` of the basis has become that of another inequality: (I + e_r (v − e_r)ᵀ) S is
+  /// the new S_N, with v = S⁻ᵀ times the new row. Returns false if it was computed anew.
+  bool replace(const SlopeView& view, const Basis& basis, int place) {
+    constexpr int kChanges = 32;
+    constexpr double kSmallPivot = 1e-3;
+    const int row = basis[static_cast<std::size_t>(place)];
+    Eigen::VectorXd v = inverse_.transpose() * view.slope.row(row).transpose();
+    const double pivot = v[place];
+    if (++changes_ > kChanges || !(std::abs(pivot) > kSmallPivot * v.cwiseAbs().maxCoeff())) {
+      compute(view, basis);
+      return false;
+    }
+    v[place] -= 1;
+    const Eigen::VectorXd column = inverse_.col(place) / pivot;
+    inverse_.noalias() -= column * v.transpose();
+    return true;
+  }
+
+ private:
+  Eigen::MatrixXd inverse_;
+  int changes_ = 0;
+  bool lost_ = false;
+};
+
 /// The extremal point where a walk stands.
 struct ExtremalPoint {
   Eigen::VectorXd x;
   std::vector<char> is_active;  ///< by inequality: 1 for those of the basis
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+  EdgeDirections directions;
+
+  bool has_more_active_than(Eigen::Index count, double epsilon) const {
+    return (x.array() < epsilon).count() > count;
+  }
 };
 
 /// A neighbour of an extremal point.
 struct Neighbour {
-  int relaxed = -1;  ///< place in the basis of the inequality that was relaxed; −1: there is none
-  int stop = -1;     ///< the inequality that ends the edge, or −1
-  double gain = 0;   ///< of the objective, up to the neighbour
-  Eigen::VectorXd step;
+  int relaxed = -1;           ///< place in the basis of the inequality that was relaxed; −1: there is none
+  int stop = -1;              ///< the inequality that ends the edge, or −1
+  double gain = 0;            ///< of the objective, up to the neighbour
+  double length = kInfinity;  ///< of the edge, in units of its direction
+  Eigen::VectorXd rate;       ///< of the slacks along the direction
 };
 
 /// Along the edge of the polytope on which the inequality at place `relaxed` of the basis is relaxed.
 /// `slope`: of the objective along it.
 Neighbour follow_edge(const SlopeView& view, const ExtremalPoint& point, int relaxed, double slope) {
-  const Eigen::VectorXd direction = point.factors.solve(Eigen::VectorXd::Unit(view.dim(), relaxed));
-  const Eigen::VectorXd rate = view.slope * direction;
-  double length = kInfinity;
   Neighbour neighbour;
   neighbour.relaxed = relaxed;
-  for (Eigen::Index k = 0; k < rate.size(); ++k) {
-    const double approach = -rate[k];
+  neighbour.rate = view.slope * point.directions.direction(relaxed);
+  double& length = neighbour.length;
+  for (Eigen::Index k = 0; k < neighbour.rate.size(); ++k) {
+    const double approach = -neighbour.rate[k];
     if (approach <= tolerance::kStepRate || point.is_active[static_cast<std::size_t>(k)] != 0) continue;
     const double slack = std::max(0.0, point.x[k]);
     if (slack >= length * approach) continue;
@@ -49,7 +99,6 @@ Neighbour follow_edge(const SlopeView& view, const ExtremalPoint& point, int rel
     neighbour.stop = static_cast<int>(k);
   }
   neighbour.gain = slope * length;
-  neighbour.step = length * direction;
   return neighbour;
 }
 
@@ -58,7 +107,7 @@ Neighbour follow_edge(const SlopeView& view, const ExtremalPoint& point, int rel
 Neighbour choose_neighbour(const SlopeView& view, const ExtremalPoint& point, const Objective& objective,
                            const std::vector<int>& order, bool best, double least_gain,
                            std::int64_t& looked_at) {
-  const Eigen::VectorXd slope = point.factors.transpose().solve(objective.along_z);
+  const Eigen::VectorXd slope = point.directions.slopes(objective);
   Neighbour chosen;
   chosen.gain = least_gain;
   for (const int relaxed : order) {
@@ -75,11 +124,6 @@ Neighbour choose_neighbour(const SlopeView& view, const ExtremalPoint& point, co
 /// Puts numbers into an order drawn at random.
 void shuffle(std::vector<int>& numbers, Random& random) {
   for (std::size_t i = numbers.size(); i > 1; --i) std::swap(numbers[i - 1], numbers[random.below(i)]);
-}
-
-bool is_singular(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
-  const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
-  return !(pivots.minCoeff() > tolerance::kLostDirections * pivots.maxCoeff());
 }
 
 }  // namespace
@@ -125,7 +169,7 @@ NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& sta
   const Vertex vertex = compute_vertex(view_, start);
   Eigen::VectorXd z = vertex.z;
   ExtremalPoint point{vertex.x, std::vector<char>(static_cast<std::size_t>(view_.inequalities()), 0),
-                      vertex.active};
+                      EdgeDirections(view_, start)};
   for (const int k : start) point.is_active[static_cast<std::size_t>(k)] = 1;
   double value = objective.along_z.dot(z);
   std::vector<int> order(static_cast<std::size_t>(view_.dim()));
@@ -137,29 +181,32 @@ NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& sta
     return walk;
   };
   for (;;) {
-    if (walk.steps > 0) point.factors.compute(view_.slope(walk.basis, Eigen::all));
-    if (is_singular(point.factors)) return end_at(WalkEnd::kDirectionsLost);
-    const bool has_drifted = point.x(walk.basis).cwiseAbs().maxCoeff() > epsilon_;
-    const bool has_more = (point.x.array() < epsilon_).count() > view_.dim();
-    walk.unexpected += has_more ? 1 : 0;
+    if (point.directions.are_lost()) return end_at(WalkEnd::kDirectionsLost);
+    walk.unexpected += point.has_more_active_than(view_.dim(), epsilon_) ? 1 : 0;
     if (rule_ == NeighbourRule::kRandom) shuffle(order, random);
     const Neighbour next =
         choose_neighbour(view_, point, objective, order, rule_ == NeighbourRule::kBest,
                          tolerance::kImprovingGain * std::max(1.0, std::abs(value)), walk.neighbours);
     if (next.relaxed < 0) {
-      if (has_drifted) return end_at(WalkEnd::kFewerActive);
-      return end_at(has_more ? WalkEnd::kMoreActive : WalkEnd::kNoneBetter);
+      point.x = view_.offset + view_.slope * z;
+      if (point.x(walk.basis).cwiseAbs().maxCoeff() > epsilon_) return end_at(WalkEnd::kFewerActive);
+      return end_at(point.has_more_active_than(view_.dim(), epsilon_) ? WalkEnd::kMoreActive
+                                                                      : WalkEnd::kNoneBetter);
     }
     if (next.stop < 0) return end_at(WalkEnd::kPolytopeEdgeWithoutEnd);
     if (walk.steps == kStepLimit) return end_at(WalkEnd::kStepLimit);
-    z += next.step;
-    point.x = view_.offset + view_.slope * z;
+    z += next.length * point.directions.direction(next.relaxed);
     value = objective.along_z.dot(z);
     int& relaxed = walk.basis[static_cast<std::size_t>(next.relaxed)];
     point.is_active[static_cast<std::size_t>(relaxed)] = 0;
     point.is_active[static_cast<std::size_t>(next.stop)] = 1;
     relaxed = next.stop;
     ++walk.steps;
+    if (point.directions.replace(view_, walk.basis, next.relaxed)) {
+      point.x += next.length * next.rate;
+    } else {
+      point.x = view_.offset + view_.slope * z;
+    }
   }
 }
 

@@ -48,11 +48,11 @@ struct NeighbourWalk {
 /// The walk ends where none is better. Non-transmitting contacts are two active inequalities, like two
 /// sliding contacts (Sec. II E).
 ///
-/// Directions of the edges are columns of S_N⁻¹, so a step is one factorisation (2/3 d³) and, for each edge
-/// that is followed, one solution and one product (2 d² + 2 K d). A neighbour that lies where the objective
-/// does not grow is seen to be no better from the slope along its edge, which is then not followed; the walk
-/// is the same. The point is moved along edges, so rounding adds up, and nothing is done about points at
-/// which more than d inequalities are active: failures are reported as they come.
+/// Directions of the edges are columns of S_N⁻¹, which a step changes by a matrix of rank one (6 d²); each
+/// edge that is followed costs one product (2 K d). A neighbour that lies where the objective does not grow
+/// is seen to be no better from the slope along its edge, which is then not followed; the walk is the same.
+/// The point is moved along edges, so rounding adds up, and nothing is done about points at which more than d
+/// inequalities are active: failures are reported as they come.
 class NeighbourSearch {
  public:
   /// `view` must outlive the search. `epsilon`: an inequality below it is active (force units). `seed`: of

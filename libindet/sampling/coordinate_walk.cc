@@ -1,8 +1,11 @@
 #include "libindet/sampling/coordinate_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+
+#include "libindet/base/lanes.h"
 
 namespace indet {
 namespace {
@@ -14,22 +17,30 @@ struct Chord {
   double low, high;
 };
 
-/// Two numbers that the processor divides and compares at once; they need not be aligned.
-typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
+/// Lanes that need not be aligned.
+typedef double LooseLanes __attribute__((vector_size(16), aligned(8), may_alias));
+
+Lanes lanes_at(const double* p) { return *reinterpret_cast<const LooseLanes*>(p); }
 
 /// From the largest and the smallest a_k/s_k.
 Chord chord(const double* a, const double* s, Eigen::Index count) {
-  Pair largest = {0, 0};
-  Pair smallest = {0, 0};
+  std::array<Lanes, 2> largest{both(0), both(0)};
+  std::array<Lanes, 2> smallest = largest;
   Eigen::Index k = 0;
-  for (; k + 1 < count; k += 2) {
-    const Pair quotient = *reinterpret_cast<const Pair*>(a + k) / *reinterpret_cast<const Pair*>(s + k);
-    largest = quotient > largest ? quotient : largest;
-    smallest = quotient < smallest ? quotient : smallest;
+  for (; k + 3 < count; k += 4) {
+    for (std::size_t i = 0; i < 2;
+         ++i) {  // two chains of comparisons, so that one need not wait for the other
+      const Eigen::Index place = k + 2 * static_cast<Eigen::Index>(i);
+      const Lanes quotient = lanes_at(a + place) / lanes_at(s + place);
+      largest[i] = larger(largest[i], quotient);
+      smallest[i] = smaller(smallest[i], quotient);
+    }
   }
-  double high = largest[0] > largest[1] ? largest[0] : largest[1];
-  double low = smallest[0] < smallest[1] ? smallest[0] : smallest[1];
-  if (k < count) {
+  const Lanes highs = larger(largest[0], largest[1]);
+  const Lanes lows = smaller(smallest[0], smallest[1]);
+  double high = std::max(highs[0], highs[1]);
+  double low = std::min(lows[0], lows[1]);
+  for (; k < count; ++k) {
     high = std::max(high, a[k] / s[k]);
     low = std::min(low, a[k] / s[k]);
   }
@@ -37,10 +48,12 @@ Chord chord(const double* a, const double* s, Eigen::Index count) {
 }
 
 void move(double* s, const double* a, double step, Eigen::Index count) {
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double moved = s[k] + step * a[k];
-    s[k] = moved < kSmallestSlack ? kSmallestSlack : moved;
+  Eigen::Index k = 0;
+  for (; k + 1 < count; k += 2) {
+    const Lanes moved = lanes_at(s + k) + both(step) * lanes_at(a + k);
+    *reinterpret_cast<LooseLanes*>(s + k) = larger(moved, both(kSmallestSlack));
   }
+  if (k < count) s[k] = std::max(s[k] + step * a[k], kSmallestSlack);
 }
 
 }  // namespace

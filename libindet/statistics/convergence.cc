@@ -85,6 +85,28 @@ double multi_chain_effective_size(std::span<const double> values, std::size_t le
   return total / time;
 }
 
+std::vector<RankedValue> ranked(std::span<const double> values) {
+  std::vector<RankedValue> result(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) result[i] = {values[i], i};
+  std::sort(result.begin(), result.end(),
+            [](const RankedValue& a, const RankedValue& b) { return a.value < b.value; });
+  return result;
+}
+
+/// Distances of values from a number between them: those below and those above it are in order already.
+std::vector<RankedValue> ranked_distances(const std::vector<RankedValue>& ascending, double from) {
+  std::vector<RankedValue> distances;
+  distances.reserve(ascending.size());
+  for (const RankedValue& r : ascending) distances.push_back({std::abs(r.value - from), r.index});
+  const auto middle = std::partition_point(ascending.begin(), ascending.end(),
+                                           [from](const RankedValue& r) { return r.value < from; });
+  const auto above = distances.begin() + (middle - ascending.begin());
+  std::reverse(distances.begin(), above);
+  std::inplace_merge(distances.begin(), above, distances.end(),
+                     [](const RankedValue& a, const RankedValue& b) { return a.value < b.value; });
+  return distances;
+}
+
 }  // namespace
 
 double sorted_quantile(std::span<const double> ascending, double q) {
@@ -115,16 +137,13 @@ std::vector<double> ChainAssessor::halves(std::span<const double> values) const 
   return result;
 }
 
-std::vector<double> ChainAssessor::normal_scores(const std::vector<double>& values) const {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::vector<double> scores(values.size());
-  for (std::size_t first = 0; first < order.size();) {
+std::vector<double> ChainAssessor::normal_scores(const std::vector<RankedValue>& ascending) const {
+  std::vector<double> scores(ascending.size());
+  for (std::size_t first = 0; first < ascending.size();) {
     std::size_t last = first;
-    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) ++last;
+    while (last + 1 < ascending.size() && ascending[last + 1].value == ascending[first].value) ++last;
     // Equal values share the mean of their ranks first + 1 … last + 1.
-    for (std::size_t i = first; i <= last; ++i) scores[order[i]] = scores_[first + last];
+    for (std::size_t i = first; i <= last; ++i) scores[ascending[i].index] = scores_[first + last];
     first = last + 1;
   }
   return scores;
@@ -132,20 +151,21 @@ std::vector<double> ChainAssessor::normal_scores(const std::vector<double>& valu
 
 Convergence ChainAssessor::assess(std::span<const double> values) const {
   Convergence result;
-  std::vector<double> split = halves(values);
+  const std::vector<double> split = halves(values);
   const auto length = static_cast<std::size_t>(half_);
-  std::vector<double> sorted = split;
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted.front() == sorted.back()) return result;
+  const std::vector<RankedValue> ascending = ranked(split);
+  if (ascending.front().value == ascending.back().value) return result;
+  std::vector<double> sorted(split.size());
+  std::transform(ascending.begin(), ascending.end(), sorted.begin(),
+                 [](const RankedValue& r) { return r.value; });
 
-  const std::vector<double> scores = normal_scores(split);
+  const std::vector<double> scores = normal_scores(ascending);
   result.bulk = multi_chain_effective_size(scores, length);
-  const double median = sorted_quantile(sorted, 0.5);
-  std::vector<double> part(split.size());
-  for (std::size_t i = 0; i < split.size(); ++i) part[i] = std::abs(split[i] - median);
-  const double folded = potential_scale_reduction(normal_scores(part), length);
+  const double folded = potential_scale_reduction(
+      normal_scores(ranked_distances(ascending, sorted_quantile(sorted, 0.5))), length);
   result.rhat = std::fmax(potential_scale_reduction(scores, length), folded);
 
+  std::vector<double> part(split.size());
   result.tail = std::numeric_limits<double>::infinity();
   for (const double q : {0.05, 0.95}) {
     const double limit = sorted_quantile(sorted, q);

@@ -24,6 +24,12 @@ struct Convergence {
   }
 };
 
+/// A value and its place before it was put into order.
+struct RankedValue {
+  double value = 0;
+  std::size_t index = 0;
+};
+
 /// Assesses quantities of chains that all have the same number and length: what depends on these alone is
 /// computed once.
 class ChainAssessor {
@@ -40,7 +46,7 @@ class ChainAssessor {
 
  private:
   std::vector<double> halves(std::span<const double> values) const;
-  std::vector<double> normal_scores(const std::vector<double>& values) const;
+  std::vector<double> normal_scores(const std::vector<RankedValue>& ascending) const;
 
   int chains_ = 0;
   int length_ = 0;

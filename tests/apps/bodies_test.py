@@ -262,7 +262,7 @@ class OldFiles(program.ProgramTest):
                 before[group].visititems(lambda name, thing, group=group: np.testing.assert_array_equal(
                     thing[()], after[group][name][()]) if isinstance(thing, h5py.Dataset) else None)
             for name in ("R_min", "R_max", "T_min", "T_max", "outcome"):
-                np.testing.assert_array_equal(before["ranges"][name][:], after["ranges"][name][:])
+                np.testing.assert_allclose(after["ranges"][name][:], before["ranges"][name][:], rtol=1e-12, atol=1e-12)
 
 
 def between_plates(load, count=1, mu=0, tangential="", floor=""):

@@ -33,6 +33,8 @@ WRITERS = {"simulate": ([*SIMULATE, "-o"], "out.h5"),
            "export pdf": (["export", "groove.h5", "-o"], "out.pdf"),
            "export png": (["export", "groove.h5", "-o"], "out.png"),
            "export csv": (["export", "groove.h5", "-o"], "out.csv"),
+           "export vtkhdf": (["export", "groove.h5", "-o"], "out.vtkhdf"),
+           "export extxyz": (["export", "groove.h5", "-o"], "out.extxyz"),
            "trajectory": (["trajectory", "moving.h5", "-o"], "out.svg"),
            "animation": (["trajectory", "moving.h5", "--animate", "-o"], "out.svg")}
 
@@ -95,7 +97,8 @@ class Kinds(ReplacementTest):
         for output, text in [("out.svg", '<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg"/>\n'),
                              ("out.svg", '<svg xmlns="http://www.w3.org/2000/svg"/>\n'),
                              ("out.pdf", "%PDF-1.5\n1 0 obj << /Creator (TeX) >> endobj\n%%EOF\n"),
-                             ("out.png", "\x89PNG\r\n\x1a\n" + 80 * "x"), ("out.csv", "contact,force\n1,2\n")]:
+                             ("out.png", "\x89PNG\r\n\x1a\n" + 80 * "x"), ("out.csv", "contact,force\n1,2\n"),
+                             ("out.extxyz", "1\nProperties=species:S:1:pos:R:3\nX 0 0 0\n")]:
             with self.subTest(output=output, text=text):
                 (self.folder / output).write_bytes(text.encode("latin-1"))
                 self.refused("export", "groove.h5", "-o", output, message="--overwrite")

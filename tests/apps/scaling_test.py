@@ -8,6 +8,7 @@ Arguments: the indet executable.
 
 import csv
 import json
+import math
 import pathlib
 import random
 import re
@@ -44,7 +45,8 @@ def random_scene(seed):
     if container != "none":
         return scene, []
     lean = rng.uniform(0.05, 0.3)
-    return scene, [([0.0, 0.0], [0.0, 1.0]), ([0.0, 0.0], [1.0, lean]), ([width, 0.0], [-1.0, lean])]
+    across, up = math.cos(lean), math.sin(lean)
+    return scene, [([0.0, 0.0], [0.0, 1.0]), ([0.0, 0.0], [across, up]), ([width, 0.0], [-across, up])]
 
 
 def scene_text(scene, walls, units):

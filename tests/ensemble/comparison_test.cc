@@ -66,6 +66,11 @@ TEST(Comparison, OrderIsDecidedByTwoStandardErrors) {
   EXPECT_STREQ(verdict_of_order({10, 1}, {7.5, 1}), kNotDecided);
   EXPECT_STREQ(verdict_of_order({7.5, 1}, {10, 1}), kNotDecided);
   EXPECT_STREQ(verdict_of_order({7, 1}, {10, 1}), kDiffers);
+
+  EXPECT_STREQ(verdict_about({64, 1}, 60), kAgrees);
+  EXPECT_STREQ(verdict_about({75, 8}, 60), kAgrees);
+  EXPECT_STREQ(verdict_about({75, 7}, 60), kDiffers);
+  EXPECT_STREQ(verdict_about({33, 38.9}, 60), kNotDecided) << "an error that allows anything";
 }
 
 /// Verdicts on the sliding contacts of the four families, with these numbers in the raw states of both seeds.

@@ -40,6 +40,7 @@ class Install(unittest.TestCase):
     def test_what_belongs_to_it_is_there(self):
         installed = {str(path.relative_to(self.prefix)) for path in self.prefix.rglob("*")}
         for part in ["share/bash-completion/completions/indet", "share/doc/indet/LICENSE", "share/doc/indet/README.md",
+                     "share/indet/exporters/yade_export.py",
                      "include/libindet/range/analyze.h", "include/libindet/base/version.h"]:
             self.assertIn(part, installed)
         if shutil.which("help2man"):

@@ -17,6 +17,7 @@ import xml.etree.ElementTree
 
 import h5py
 import numpy as np
+import pandas as pd
 
 SAMPLES, IMPORTING, DATA, INDET = (sys.argv.pop() for _ in range(4))
 
@@ -43,7 +44,7 @@ class CommandTest(unittest.TestCase):
         scene = self.folder / "scene"
         scene.mkdir(exist_ok=True)
         for name, text in texts.items():
-            (scene / name).write_text(changed.get(name.replace(".", "_"), text))
+            (scene / name).write_text(changed.get(name.replace(".", "_"), text), errors="surrogateescape")
 
     def import_lammps(self, *arguments, status=0):
         return self.run_indet("import", "--format", "lammps", "--atoms", f"{DATA}/atoms.dump", "--contacts",
@@ -80,6 +81,20 @@ class Import(CommandTest):
                 ("contacts_csv", CONTACTS + "7,-1,0.3,1,0\n", "scene/contacts.csv:5: column a: there is no disk 7"),
                 ("contacts_csv", "a,b,mu\n0,-1,-0.3\n", "scene/contacts.csv:2: mu must not be negative"),
                 ("contacts_csv", "a,b,mu,nx,ny\n1,0,0.3,0,1\n", "scene/contacts.csv:2: the normal (0, 1) disagrees"),
+                ("walls_csv", "id,px,py,nx,ny,name\n0,0,0,0,1,W\udce4nde\n",
+                 "scene/walls.csv:2: the byte 0xE4 is not UTF-8 text (it may be Latin-1): save the file as UTF-8"),
+                ("walls_csv", "id,px,py,nx,ny\n0,0,1.5,0,1\n",
+                 "scene/contacts.csv:2: the centre of disk 0 is behind wall 0: does the normal (0, 1) point into the domain?"),
+                ("walls_csv", "id,px,py,nx,ny\n0,0,-27,0,1\n",
+                 "scene/contacts.csv:2: disk 0 and wall 0 are 27 apart, more than the radius 1: they do not touch"),
+                ("walls_csv", "id,px,py,nx,ny\n0,0,2,0,1\n", "scene/contacts.csv:2: the centre of disk 0 is behind wall 0"),
+                ("disks_csv", DISKS.replace("1,2,1,1,1", "1,29,1,1,1"),
+                 "scene/contacts.csv:4: disk 1 and disk 0 are 27 apart, more than the radius 1: they do not touch"),
+                ("disks_csv", DISKS.replace(",", ";").replace("1;2;1;1;1", "1;2,5;1.0;1;1"),
+                 'scene/disks.csv:3: the number "1.0" has another decimal mark than "2,5" in line 3'),
+                ("disks_csv", DISKS + "2,4,5,1,1,1\n", "scene/disks.csv:4: 6 fields, but there are 5 columns (id, x, y, "
+                                                      "radius, mass); decimal commas are read only where semicolons"),
+                ("disks_csv", "sep=|\n" + DISKS, "scene/disks.csv:1: fields are separated by commas, semicolons or tabs"),
                 ("scene_toml", "gravity = [0, 0]\n", "scene/scene.toml: the scene has no gravity"),
         ]:
             with self.subTest(message):
@@ -102,6 +117,68 @@ class Import(CommandTest):
         self.write_scene(contacts_csv="a,b,mu\n0,-1,0.3\n1,-1,0.3\n")
         done = self.run_indet("import", "--format", "csv", "scene", "-o", "p.h5")
         self.assertIn("the forces are unknown", done.stdout)
+
+    def test_tables_in_other_hands_give_the_same_packing(self):
+        """As Excel writes them in Germany and elsewhere, and pandas with its index."""
+        def german(text):
+            return text.replace(",", ";").replace(".", ",").replace("\n", "\r\n")
+
+        def pandas(text):
+            header, *rows = text.splitlines()
+            return "\n".join(["," + header, *(f"{i},{row}" for i, row in enumerate(rows))]) + "\n"
+
+        digests = set()
+        for name, other in [("plain", str), ("german", german), ("sep", lambda text: "sep=,\r\n" + text),
+                            ("sep_german", lambda text: "\ufeffsep=;\r\n" + german(text)), ("pandas", pandas),
+                            ("tabs", lambda text: text.replace(",", "\t"))]:
+            self.write_scene(disks_csv=other(DISKS.replace("1,2,1,1,1", "1,2.0,1.0,1.00,10e-1")), walls_csv=other(WALLS),
+                             contacts_csv=other(CONTACTS))
+            self.run_indet("import", "--format", "csv", "scene", "-o", f"{name}.h5")
+            with h5py.File(self.folder / f"{name}.h5") as file:
+                digests.add(file.attrs["content_sha256"])
+        self.assertEqual(len(digests), 1)
+
+    def test_forces_that_are_known_in_part_are_checked_where_all_of_a_disk_are(self):
+        """Some forces of the LAMMPS packing are taken away, and one of those that stay is wrong. What is reported is
+        compared with a balance of our own."""
+        self.import_lammps("--friction", "0.3")
+        self.run_indet("export", "p.h5", "--format", "csv", "-o", "known")
+        disks, contacts = (pd.read_csv(self.folder / "known" / f"{name}.csv") for name in ("disks", "contacts"))
+        rng = np.random.default_rng(3)
+        contacts.loc[rng.random(len(contacts)) < 0.1, ["R", "T"]] = np.nan
+        contacts.loc[rng.random(len(contacts)) < 0.1, "T"] = np.nan
+        contacts.loc[contacts.R.idxmax(), "R"] += 0.01
+
+        row = dict(zip(disks.id, range(len(disks))))
+        net = np.column_stack([np.zeros(len(disks)), -disks.mass, np.zeros(len(disks))]) / disks.mass.mean()
+        for c in contacts.itertuples():
+            force = np.array([c.R * c.nx + c.T * c.ny, c.R * c.ny - c.T * c.nx]) / disks.mass.mean()
+            for body, sign in [(c.a, 1), (c.b, -1)]:
+                if body >= 0:
+                    net[row[body]] += [*(sign * force), c.T / disks.mass.mean()]
+        complete = np.isfinite(net).all(axis=1)
+        worst = np.hypot(net[:, 0], net[:, 1])
+        self.assertTrue(20 < complete.sum() < 200)
+        self.assertTrue(0.005 / disks.mass.mean() < worst[complete].max())
+
+        contacts.to_csv(self.folder / "known" / "contacts.csv", index=False)
+        done = self.run_indet("import", "--format", "csv", "known", "-o", "q.h5", status=3)
+        self.assertIn(f"the net force is {worst[complete].max():.3g} mg", done.stderr)
+        arguments = ["import", "--format", "csv", "known", "-o", "q.h5", "--balance-tol", "0.1"]
+        report = json.loads(self.run_indet(*arguments, "--json").stdout)
+        known = contacts[["R", "T"]].notna().to_numpy().sum()
+        self.assertFalse(report["forces_known"])
+        self.assertEqual((report["known_forces"], report["checked_disks"]), (known, complete.sum()))
+        np.testing.assert_allclose(report["force_residual"], worst[complete].max(), rtol=1e-9)
+        np.testing.assert_allclose(report["torque_residual"], np.abs(net[complete, 2]).max(), atol=1e-12)
+        self.assertIn(f"{known} of 752 forces known; their balance was checked on {complete.sum()} of 220 disks, which "
+                      "have all of them\n", self.run_indet(*arguments).stdout)
+        text = self.run_indet("inspect", "q.h5").stdout
+        self.assertIn(f"  simulated forces  {known} of 752 known; all of them on {complete.sum()} of 220 disks\n", text)
+        self.assertIn(f"  balance           force to {worst[complete].max():.1e} mg", text)
+        self.run_indet("export", "q.h5", "-o", "q.svg")
+        self.assertIn(f"{known} of 752 forces known", (self.folder / "q.svg").read_text() +
+                      self.run_indet("export", "q.h5", "-o", "q.svg", "--json").stdout)
 
     def test_coulomb_violations_are_a_warning(self):
         done = self.import_lammps("--friction", "0.1")

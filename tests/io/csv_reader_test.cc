@@ -76,6 +76,7 @@ TEST(CsvReader, ReadsEveryOptionalColumnInAnyOrder) {
   EXPECT_EQ(packing.contacts[0].normal, Vector2(0, 1));
   EXPECT_EQ(packing.contacts[0].mu, 0.25);
   EXPECT_TRUE(std::isnan(packing.contacts[1].R));
+  EXPECT_TRUE(std::isnan(packing.contacts[1].T));
   EXPECT_EQ(packing.force_unit(), 4);
   EXPECT_EQ(packing.gravity, Vector2(0.5, -2));
 }
@@ -104,6 +105,16 @@ TEST(CsvReader, RoundedNormalsGetUnitLength) {
   write_scene(folder);
   folder.write("contacts.csv", "a,b,nx,ny,mu\n7,10,0.8000003,0.6,0.3\n");
   EXPECT_NEAR(read_csv_scene(folder.path()).packing.contacts[0].normal.norm(), 1, 1e-15);
+}
+
+/// T is part of what is known of a contact without friction, unless its R is not.
+TEST(CsvReader, AFrictionlessContactHasNoTangentialForce) {
+  const test::TemporaryFolder folder;
+  write_scene(folder);
+  folder.write("contacts.csv", "a,b,mu,R\n7,10,0,1.5\n10,-4,0,\n");
+  const Packing packing = read_csv_scene(folder.path()).packing;
+  EXPECT_EQ(packing.contacts[0].T, 0);
+  EXPECT_TRUE(std::isnan(packing.contacts[1].T));
 }
 
 TEST(CsvReader, WarnsOfContactsThatAreFarApart) {
@@ -166,7 +177,17 @@ const std::vector<BadScene> kBadScenes = {
     {"UnknownColumn", "disks.csv", "id,x,y,radius,mass,colour\n", "disks.csv:1: column colour is unknown"},
     {"NamelessColumn", "disks.csv", "id,x,y,radius,mass,\n", "disks.csv:1: column 6 has no name"},
     {"NoHeader", "disks.csv", "1,0,1,1,2\n", "disks.csv:1: the first line must name the columns"},
-    {"Semicolons", "disks.csv", "id;x;y\n1;2;3\n", "disks.csv:1: fields must be separated by commas"},
+    {"SemicolonsWithoutAColumn", "disks.csv", "id;x;y\n1;2;3\n", "disks.csv:1: column radius is missing"},
+    {"Latin1Name", "walls.csv", "id,px,py,nx,ny,name\n3,0,0,0,1,W\xE4nde\n",
+     "walls.csv:2: the byte 0xE4 is not UTF-8 text"},
+    {"Latin1Scene", "scene.toml", "# na\xEFve\n", "scene.toml:1: the byte 0xEF is not UTF-8 text"},
+    {"BehindAWall", "walls.csv", "id,px,py,nx,ny\n3,0,1.5,0,1\n",
+     "contacts.csv:3: the centre of disk 10 is behind wall 3: does the normal (0, 1) point into the domain?"},
+    {"FarFromAWall", "walls.csv", "id,px,py,nx,ny\n3,0,-27,0,1\n",
+     "contacts.csv:3: disk 10 and wall 3 are 27 apart, more than the radius 1: they do not touch"},
+    {"FarApart", "disks.csv", "id,x,y,radius,mass\n10,0,1,1,2\n7,5,1,1,2\n", "contacts.csv:2: the normal"},
+    {"FarApartWithoutNormals", "contacts.csv", "a,b,mu\n10,-4,0.3\n7,-4,0.3\n",
+     "contacts.csv:3: disk 7 and wall 3 are 1.2 apart, more than the radius 1: they do not touch"},
     {"EmptyFile", "disks.csv", "", "disks.csv: the file is empty"},
     {"OnlyComments", "disks.csv", "# nothing\n\n", "disks.csv: the file is empty"},
     {"NoDisk", "disks.csv", "id,x,y,radius,mass\n", "disks.csv: there is no disk in it"},

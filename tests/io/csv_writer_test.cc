@@ -8,8 +8,8 @@
 
 #include "libindet/base/error.h"
 #include "libindet/io/csv_reader.h"
+#include "libindet/io/csv_table.h"
 #include "libindet/io/lammps_reader.h"
-#include "libindet/io/table.h"
 #include "tests/io/sample.h"
 #include "tests/support/temporary_folder.h"
 
@@ -63,11 +63,9 @@ TEST(CsvWriter, ASceneReadsBackToTheSamePacking) {
 
 TEST(CsvWriter, ARealPackingReadsBackToTheSamePacking) {
   const test::TemporaryFolder folder;
-  LammpsOptions options;
-  options.atoms = std::string(INDET_TEST_DATA) + "/lammps/atoms.dump";
-  options.contacts = std::string(INDET_TEST_DATA) + "/lammps/contacts.dump";
-  options.friction = 0.3;
-  const Packing packing = read_lammps(options).packing;
+  const std::string data = std::string(INDET_TEST_DATA) + "/lammps/";
+  const Packing packing =
+      read_lammps({data + "atoms.dump", data + "contacts.dump", {}}, {.friction = FrictionRule(0.3)}).packing;
   write_csv_scene(folder.path(), packing, packing.simulated_forces().value());
   expect_same(read_csv_scene(folder.path()).packing, packing);
 }

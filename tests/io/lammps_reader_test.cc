@@ -27,12 +27,17 @@ using ::testing::ThrowsMessage;
 
 const std::string kData = std::string(INDET_TEST_DATA) + "/lammps/";
 
+struct LammpsOptions {
+  DumpFiles files;
+  ImportSettings settings;
+};
+
+ImportedPacking read_lammps(const LammpsOptions& options) {
+  return indet::read_lammps(options.files, options.settings);
+}
+
 LammpsOptions real_options() {
-  LammpsOptions options;
-  options.atoms = kData + "atoms.dump";
-  options.contacts = kData + "contacts.dump";
-  options.friction = 0.3;
-  return options;
+  return {{kData + "atoms.dump", kData + "contacts.dump", {}}, {.friction = FrictionRule(0.3)}};
 }
 
 TEST(LammpsReader, ReadsARealPackingInEquilibrium) {
@@ -135,8 +140,8 @@ struct Dumps {
     folder.write("atoms.dump", atoms.text());
     folder.write("contacts.dump", contacts.text());
     LammpsOptions options = changed;
-    options.atoms = folder / "atoms.dump";
-    options.contacts = folder / "contacts.dump";
+    options.files.atoms = folder / "atoms.dump";
+    options.files.contacts = folder / "contacts.dump";
     return read_lammps(options);
   }
 };
@@ -173,15 +178,15 @@ TEST(LammpsReader, OtherNamesOfColumnsCanBeMapped) {
     dumps.atoms.columns[dumps.atoms.column(fmt::format("f_wy[{}]", i))] = fmt::format("c_ground[{}]", i);
   }
   LammpsOptions options = real_options();
-  options.columns = {{"radius", "c_r"},
-                     {"fx", "c_force[1]"},
-                     {"wall:floor", "c_ground"},
-                     {"wall:left", "f_wx"},
-                     {"wall:right", "f_wr"}};
+  options.settings.columns = {{"radius", "c_r"},
+                              {"fx", "c_force[1]"},
+                              {"wall:floor", "c_ground"},
+                              {"wall:left", "f_wx"},
+                              {"wall:right", "f_wr"}};
   const Packing packing = dumps.read(options).packing;
   EXPECT_EQ(packing.contact_count(), 376);
   EXPECT_EQ(packing.walls[0].name, "floor");
-  options.columns["speed"] = "v";
+  options.settings.columns["speed"] = "v";
   EXPECT_THAT([&] { dumps.read(options); }, ThrowsMessage<InputError>(HasSubstr("speed is unknown")));
 }
 
@@ -214,12 +219,12 @@ TEST(LammpsReader, TheLastFrameIsReadUnlessATimestepIsGiven) {
   folder.write("atoms.dump", early.atoms.text() + late.atoms.text());
   folder.write("contacts.dump", early.contacts.text() + late.contacts.text());
   LammpsOptions options = real_options();
-  options.atoms = folder / "atoms.dump";
-  options.contacts = folder / "contacts.dump";
+  options.files.atoms = folder / "atoms.dump";
+  options.files.contacts = folder / "contacts.dump";
   EXPECT_NE(read_lammps(options).packing.disks[0].mass, 99);
-  options.timestep = 500000;
+  options.files.timestep = 500000;
   EXPECT_EQ(read_lammps(options).packing.disks[0].mass, 99);
-  options.timestep = 7;
+  options.files.timestep = 7;
   EXPECT_THAT([&] { read_lammps(options); },
               ThrowsMessage<InputError>(HasSubstr(
                   "there is no frame of timestep 7; the file has 2 frames, of timesteps 500000 … 600000")));
@@ -269,7 +274,7 @@ TEST(LammpsReader, AtomsBehindAWallAreReported) {
 
 TEST(LammpsReader, ForcesOfAnotherKindAreSuspect) {
   LammpsOptions options = real_options();
-  options.columns = {{"fx", "c_pl[5]"}, {"fy", "c_pl[6]"}, {"p1", "c_pl[3]"}, {"p2", "c_pl[4]"}};
+  options.settings.columns = {{"fx", "c_pl[5]"}, {"fy", "c_pl[6]"}, {"p1", "c_pl[3]"}, {"p2", "c_pl[4]"}};
   const ImportedPacking imported = Dumps().read(options);
   EXPECT_THAT(imported.warnings, Contains(HasSubstr("are the columns the right ones?")));
 }
@@ -325,7 +330,7 @@ const std::vector<BadDump> kBadDumps = {
     {"NegativeMass", [](Dumps& d) { set_atom(d, 2, "mass", "-1"); }, "atoms.dump:12: mass must be positive"},
     {"DoubledAtom", [](Dumps& d) { set_atom(d, 2, "id", "1"); }, "atoms.dump:12: atom 1 is given twice"},
     {"UnknownAtom", [](Dumps& d) { set_contact(d, 3, "c_pp[2]", "999"); },
-     "contacts.dump:13: column c_pp[2]: atom 999 is not in"},
+     "contacts.dump:13: atom 999 is not in"},
     {"Itself", [](Dumps& d) { set_contact(d, 3, "c_pp[2]", "3"); },
      "contacts.dump:13: atom 3 cannot touch itself"},
     {"FarApart", [](Dumps& d) { set_contact(d, 3, "c_pp[2]", "220"); },
@@ -340,7 +345,7 @@ const std::vector<BadDump> kBadDumps = {
     {"OutOfPlane", [](Dumps& d) { set_atom(d, 0, "f_wy[4]", "1"); },
      "atoms.dump:10: wall wy pushes atom 1 along z"},
     {"CurvedWall", [](Dumps& d) { set_atom(d, 1, "f_wy[5]", "2.4"); },
-     "atoms.dump:11: wall wy is not a plane"},
+     "atoms.dump:11: wall wy is not made of planes that stand still"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, LammpsReaderBad, ::testing::ValuesIn(kBadDumps),
@@ -348,8 +353,13 @@ INSTANTIATE_TEST_SUITE_P(All, LammpsReaderBad, ::testing::ValuesIn(kBadDumps),
 
 TEST(LammpsReader, FrictionMustBeGiven) {
   LammpsOptions options = real_options();
-  options.friction = -1;
-  EXPECT_THAT([&] { read_lammps(options); }, ThrowsMessage<InputError>(HasSubstr("friction coefficient")));
+  options.settings.friction = {};
+  EXPECT_THAT(
+      [&] { read_lammps(options); },
+      ThrowsMessage<InputError>(HasSubstr("contacts.dump:10: the friction of atoms 1 and 13 is not known")));
+  options.settings.friction = FrictionRule::parse({"disk=0.3"});
+  EXPECT_THAT([&] { read_lammps(options); },
+              ThrowsMessage<InputError>(HasSubstr("--friction MU or wall=MU")));
 }
 
 }  // namespace

@@ -102,6 +102,20 @@ INSTANTIATE_TEST_SUITE_P(
                    PackingPart::kWall, 0, "length 0.5"},
         BadPacking{"InfiniteLoad", [](Packing& p) { p.walls[0].load_t = kInf; }, PackingPart::kWall, 0,
                    "load_t must be a finite number or empty"},
+        BadPacking{"BehindAWall", [](Packing& p) { p.walls[0].point.y() = 1; }, PackingPart::kContact, 0,
+                   "the centre of disk 0 is behind wall 0"},
+        BadPacking{"FarFromAWall", [](Packing& p) { p.walls[0].point.y() = -27; }, PackingPart::kContact, 0,
+                   "disk 0 and wall 0 are 27 apart, more than the radius 1"},
+        BadPacking{"FarFromADisk", [](Packing& p) { p.disks[1].position.x() = 3.5; }, PackingPart::kContact, 2,
+                   "disk 1 and disk 0 are 1.5 apart, more than the radius 1"},
+        BadPacking{"InsideADisk",
+                   [](Packing& p) {
+                     p.disks[1].radius = 0.5;
+                     p.disks[1].position = {0.25, 0.5};
+                     p.disks[0].position.y() = 0.5;
+                   },
+                   PackingPart::kContact, 2, "disk 1 and disk 0 overlap by 1.25, more than the diameter 1 of the "
+                                             "smaller one"},
         BadPacking{"NoForceUnit",
                    [](Packing& p) {
                      p.gravity = {0, 0};

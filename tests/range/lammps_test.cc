@@ -13,11 +13,8 @@ namespace {
 /// 220 disks and 376 contacts that LAMMPS settled in a box (tests/data/lammps/in.pack).
 Packing lammps_packing() {
   const std::filesystem::path folder = std::filesystem::path(INDET_TEST_DATA) / "lammps";
-  LammpsOptions options;
-  options.atoms = folder / "atoms.dump";
-  options.contacts = folder / "contacts.dump";
-  options.friction = 0.3;
-  return read_lammps(options).packing;
+  return read_lammps({folder / "atoms.dump", folder / "contacts.dump", {}}, {.friction = FrictionRule(0.3)})
+      .packing;
 }
 
 // One test, so that each formulation is run no more often than needed.

@@ -92,7 +92,7 @@ class SimulateTest(unittest.TestCase):
 
     def test_scene_file_is_used_and_flags_override_it(self):
         (self.folder / "scene.toml").write_text(
-            'disks = 7\ncontainer = "funnel"\nfriction = { disk = 0.5, wall = 0.4 }\n[[wall]]\npoint = [0, -1]\nnormal = [0, 2]\n')
+            'disks = 7\ncontainer = "funnel"\nfriction = { disk = 0.5, wall = 0.4 }\n[[wall]]\npoint = [0, -1]\nnormal = [0, 1]\n')
         self.run_indet("simulate", "--protocol", "cd1", "--scene", "scene.toml", "--wall-mu", "0.2", "-o", "p.h5")
         with h5py.File(self.folder / "p.h5") as file:
             self.assertEqual(len(file["particles/disks/id"]), 7)
@@ -110,6 +110,23 @@ class SimulateTest(unittest.TestCase):
         self.assertIn("not stable", done.stderr)
         self.run_indet("simulate", "--protocol", "cd1", "--stiffness", "3", "-o", "p.h5", status=3)
         self.assertFalse((self.folder / "p.h5").exists())
+
+    def test_walls_that_cannot_be_are_refused(self):
+        wall = "disks = 7\n[[wall]]\nname = \"ramp\"\npoint = [0, {}]\nnormal = {}\n"
+        for text, message in [
+                (wall.format(-1, "[0.609, 0.812]"), "scene.toml:5: normal must have length 1, but has length 1.015; "
+                                                    "in this direction that is [0.6, 0.8]"),
+                (wall.format(-1, "[0, 0]"), "scene.toml:5: normal must have length 1, but has length 0"),
+                (wall.format(-1, "[nan, 0]"), "scene.toml:5: normal must have length 1, but has length nan"),
+                (wall.format(20, "[0.6, 0.8]"), "inside wall ramp: the grid of 1 × 7 cells fills 0 ≤ x ≤ 2.2, "
+                                                "0 ≤ y ≤ 14; move the wall"),
+                (wall.format(-1, "[0, -1]"), "inside wall ramp: the grid"),
+        ]:
+            with self.subTest(message):
+                (self.folder / "scene.toml").write_text(text)
+                done = self.run_indet("simulate", "--protocol", "cd1", "--scene", "scene.toml", "-o", "p.h5", status=3)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["scene.toml"])
 
     def test_trajectory_is_drawn(self):
         self.run_indet("simulate", "--protocol", "cd1", *SMALL, "--every", "0.5", "-o", "t.h5")

@@ -81,6 +81,39 @@ TEST(Scene, FunnelLeadsToTheMiddle) {
   }
 }
 
+/// A half-plane that cuts the lower left corner of the box off, up to a distance d from it along the
+/// diagonal: the disk of radius 1 in the corner touches both walls at (1, 1), and a ramp with n̂ = (1, 1)/√2
+/// through d n̂ leaves it its place as long as √2 − d ≥ 1.
+TEST(Scene, ADiskMayTouchAWallButNotStartInIt) {
+  Scene scene{.disks = 1, .radius_min = 1, .radius_max = 1, .width = 2, .height = 2};
+  const Vector2 normal = Vector2(1, 1) / std::sqrt(2.0);
+  const auto with_ramp = [&](double distance) {
+    scene.walls = {Wall{.point = distance * normal, .normal = normal, .name = "ramp"}};
+    return scene;
+  };
+  EXPECT_EQ(build(with_ramp(std::sqrt(2.0) - 1)).size(), 1);
+  EXPECT_THAT(
+      [&] { build(with_ramp(std::sqrt(2.0) - 1 + 1e-9)); },
+      ::testing::ThrowsMessage<InputError>(HasSubstr("starts 1e-09 inside wall ramp: the grid of 1 × 1 "
+                                                     "cells fills 0 ≤ x ≤ 2, 0 ≤ y ≤ 2")));
+}
+
+TEST(Scene, NoScenesThatItChoosesStartInsideAWall) {
+  Random random(8);
+  for (int i = 0; i < 3000; ++i) {
+    Scene scene;
+    scene.seed = static_cast<std::uint64_t>(i);
+    scene.radius_max = std::exp(random.uniform(-5, 5));
+    scene.radius_min = scene.radius_max * random.uniform(0.3, 1);
+    scene.columns = 1 + i % 7;
+    scene.disks = 1 + i % 97;
+    if (i % 2 == 0) scene.width = 2 * scene.radius_max * scene.columns;
+    scene.container = i % 3 == 0 ? Container::kFunnel : Container::kBox;
+    scene.funnel_angle = random.uniform(1, 80);
+    ASSERT_EQ(build(scene).size(), scene.disks) << i;
+  }
+}
+
 struct BadScene {
   const char* name;
   void (*spoil)(Scene&);

@@ -72,5 +72,27 @@ TEST(SweepOrder, LeavesPlacesEmptyWhereAllContactsShareABody) {
   EXPECT_TRUE(sweep_order({}, 4).empty());
 }
 
+TEST(SweepGroups, JoinPairsInTheirOrderAndNoBodyTwice) {
+  for (const auto& contacts : {lattice(7, 6), lattice(20, 20)}) {
+    const auto order = sweep_order(contacts, 400);
+    std::vector<ContactPair> pairs;
+    std::size_t full = 0;
+    const auto groups = sweep_groups(order, contacts);
+    for (const auto& group : groups) {
+      pairs.push_back({group[0], group[1]});
+      if (group[2] >= 0) pairs.push_back({group[2], group[3]});
+      full += group[2] >= 0 ? 1 : 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          if (group[i] < 0 || group[j] < 0) continue;
+          EXPECT_FALSE(share(contacts[group[i]], contacts[group[j]])) << group[i] << " and " << group[j];
+        }
+      }
+    }
+    EXPECT_EQ(pairs, order);
+    EXPECT_GT(full, 3 * groups.size() / 4);
+  }
+}
+
 }  // namespace
 }  // namespace indet::sim

@@ -30,6 +30,8 @@ WRAPPERS = {
     "libindet/io/hdf5_session.h": BEHIND_HDF5_FILE,
     "libindet/io/hdf5_writing.h": BEHIND_HDF5_FILE,
     "openssl/evp.h": {"libindet/io/sha256.cc"},
+    "zlib.h": {"libindet/io/gzip.cc"},
+    "pugixml.hpp": {"libindet/io/yade_archive.cc"},
     "cairo.h": {"libindet/drawing/canvas.cc"},
     "SuiteSparseQR.hpp": {"libindet/nullspace/sparse_qr.cc"},
 }

@@ -70,7 +70,10 @@ def numbers(file):
             for key, value in item.attrs.items():
                 if not isinstance(value, str):
                     found[f"{name}@{key}"] = (np.asarray(value), SCALED.get(name, {}).get(key, "1"))
-        content.visititems(take)
+        # One by one: from the root, what has two names (in /VTKHDF) would be found under one of them only.
+        for root, item in content.items():
+            take(root, item)
+            item.visititems(lambda name, thing, root=root: take(f"{root}/{name}", thing))
     return found
 
 

@@ -25,7 +25,7 @@ struct EnsembleConfig {
   std::vector<std::filesystem::path> files;  ///< Packings that are there already.
   sim::PerturbOptions sampling;              ///< samples = 0: none. Its seed is that of each packing.
   /// Packings of each protocol that are sampled uniformly too: those of the first seeds, the first files.
-  std::int64_t uniform_seeds = 60;
+  std::int64_t uniform_seeds = 20;
   UniformOptions uniform;  ///< Its seed is that of each packing.
   /// Packings of each protocol that the paper's walk analyses too, of the first seeds or files.
   std::int64_t paper_walk_seeds = 60;

@@ -17,8 +17,11 @@ const char* verdict_of_order(const Estimate& large, const Estimate& small) {
   return difference < -2 * error ? kDiffers : kNotDecided;
 }
 
-bool is_about(const Estimate& ours, double paper) {
-  return std::abs(ours.value - paper) <= std::max(0.1 * paper, 2 * ours.error);
+const char* verdict_about(const Estimate& ours, double paper) {
+  const double difference = std::abs(ours.value - paper);
+  const double reach = std::max(0.1 * paper, 2 * ours.error);
+  if (difference > reach) return kDiffers;
+  return reach <= 0.5 * paper ? kAgrees : kNotDecided;
 }
 
 }  // namespace indet

@@ -22,7 +22,8 @@ const char* verdict(const Estimate& ours, double paper, double paper_error);
 /// smaller, else not decided.
 const char* verdict_of_order(const Estimate& large, const Estimate& small);
 
-/// Whether we find what the paper gives without an error: within 10 %, or two standard errors of ours.
-bool is_about(const Estimate& ours, double paper);
+/// Whether we find what the paper gives without an error: within 10 %, or two standard errors of ours; not
+/// decided where these are more than half of it. Precondition: both are numbers.
+const char* verdict_about(const Estimate& ours, double paper);
 
 }  // namespace indet

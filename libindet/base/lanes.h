@@ -5,7 +5,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace indet::sim {
+namespace indet {
 
 /// Two doubles that are worked on at once. Every operation acts on each lane by itself and rounds as IEEE 754
 /// says, so that results are those of plain doubles, on any machine; where there are no such registers the
@@ -51,4 +51,4 @@ inline Lanes where(LaneMask mask, Lanes value) {
 inline Lanes first_of(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 2); }
 inline Lanes second_of(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 1, 3); }
 
-}  // namespace indet::sim
+}  // namespace indet

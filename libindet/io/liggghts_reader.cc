@@ -1,0 +1,209 @@
+#include "libindet/io/liggghts_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/io/import_format.h"
+#include "libindet/io/lammps_atoms.h"
+#include "libindet/io/lammps_columns.h"
+#include "libindet/io/lammps_warnings.h"
+#include "libindet/io/packing_builder.h"
+
+namespace indet {
+namespace {
+
+/// The prefix of the columns of the compute: the only one with a fourth … sixth column.
+std::string find_compute(const Table& table) {
+  for (const std::string& column : table.columns()) {
+    if (!column.ends_with("[1]")) continue;
+    const std::string prefix = column.substr(0, column.size() - 3);
+    if (table.has(prefix + "[6]")) return prefix;
+  }
+  table.require({"c_NAME[1]", "c_NAME[6]"});
+  return "";
+}
+
+std::string column_of(const std::string& prefix, int i) { return fmt::format("{}[{}]", prefix, i); }
+
+/// The component of a row's vector that points out of the plane must be nothing beside the others.
+Vector2 force_in_plane(const Table& table, int row, const std::string& prefix, int first,
+                       const Plane& plane) {
+  const auto component = [&](int axis) { return table.number(row, column_of(prefix, first + axis)); };
+  const Vector2 force(component(plane.first), component(plane.second));
+  if (std::abs(component(plane.normal)) > tolerance::kOutOfPlane * force.norm()) {
+    table.fail(row,
+               fmt::format("the force of {} points out of the plane {}; only packings in a plane can be read "
+                           "(--plane xy or xz)",
+                           prefix, plane.name()));
+  }
+  return force;
+}
+
+void read_pairs(const Table& table, const Plane& plane, PackingBuilder& builder) {
+  const std::string prefix = find_compute(table);
+  for (int row = 0; row < table.rows(); ++row) {
+    const Place place = place_of(table, row);
+    const auto atom = [&](int i) {  // ids are printed like all other numbers of the compute
+      const double id = table.number(row, column_of(prefix, i));
+      if (id != std::floor(id) || std::abs(id) > 1e9) place.fail(fmt::format("{} is no id of an atom", id));
+      return builder.disk(static_cast<std::int32_t>(id), place);
+    };
+    if (table.number(row, column_of(prefix, 3)) != 0) {
+      place.fail("the contact lies across a periodic boundary, which is not supported");
+    }
+    Contact contact = builder.contact(atom(1), Body::disk(atom(2)), place);
+    PackingBuilder::project(contact, force_in_plane(table, row, prefix, 4, plane));
+    builder.add_contact(contact, place);
+  }
+}
+
+/// Names of the fixes whose forces the dump has: NAME of f_force_NAME[1].
+std::vector<std::string> force_fixes(const Table& table) {
+  std::vector<std::string> names;
+  for (const std::string& column : table.columns()) {
+    if (column.starts_with("f_force_") && column.ends_with("[1]"))
+      names.push_back(column.substr(8, column.size() - 11));
+  }
+  return names;
+}
+
+void read_wall(const std::string& name, const GivenWall& given, const Table& table, const Plane& plane,
+               const std::vector<int>& rows, PackingBuilder& builder) {
+  const std::string prefix = "f_force_" + name;
+  const Packing& packing = builder.packing();
+  std::optional<WallId> wall;
+  for (int i = 0; i < packing.disk_count(); ++i) {
+    const int row = rows[static_cast<std::size_t>(i)];
+    const Vector2 force = force_in_plane(table, row, prefix, 1, plane);
+    if (force.isZero(0)) continue;
+    const Place place = place_of(table, row);
+    const double side = packing[DiskId(i)].position[given.axis] - given.position > 0 ? 1 : -1;
+    Vector2 normal(0, 0);
+    normal[given.axis] = side;
+    if (!wall) {
+      Vector2 point(0, 0);
+      point[given.axis] = given.position;
+      wall = builder.add_wall({.id = packing.wall_count(), .point = point, .normal = normal, .name = name},
+                              {}, place);
+    }
+    if (packing[*wall].normal != normal) {
+      place.fail(
+          fmt::format("atom {} touches wall {} from the other side than those before it; is its plane {}?",
+                      packing[DiskId(i)].id, name, given.text));
+    }
+    Contact contact = builder.contact(DiskId(i), Body::wall(*wall), place);
+    const double radius = packing[DiskId(i)].radius;
+    if (contact.gap > 0.1 * radius || contact.gap < -radius) {
+      place.fail(
+          fmt::format("wall {} pushes atom {}, but there is {:.3g} between their surfaces; is its plane {}?",
+                      name, packing[DiskId(i)].id, contact.gap, given.text));
+    }
+    PackingBuilder::project(contact, force);
+    builder.add_contact(contact, place);
+  }
+}
+
+void read_walls(const Table& table, const std::map<std::string, GivenWall>& walls, const Plane& plane,
+                const std::vector<int>& rows, PackingBuilder& builder) {
+  const std::vector<std::string> fixes = force_fixes(table);
+  for (const auto& [name, given] : walls) {
+    if (std::find(fixes.begin(), fixes.end(), name) == fixes.end()) {
+      throw InputError(fmt::format(
+          "{}: wall {} has no columns f_force_{}[1…3]; give its fix store_force yes{}", table.source(),
+          given.text, name,
+          fixes.empty() ? "" : fmt::format(" (the file has those of {})", fmt::join(fixes, ", "))));
+    }
+    for (int i = 1; i <= 3; ++i) table.require({column_of("f_force_" + name, i)});
+  }
+  for (const std::string& name : fixes) {
+    if (const auto given = walls.find(name); given != walls.end()) {
+      read_wall(name, given->second, table, plane, rows, builder);
+      continue;
+    }
+    for (int row = 0; row < table.rows(); ++row) {
+      if (table.number(row, column_of("f_force_" + name, 1)) == 0 &&
+          table.number(row, column_of("f_force_" + name, 2)) == 0)
+        continue;
+      table.fail(
+          row,
+          fmt::format("wall {} pushes this atom, but no file says where it is: give its plane with --walls "
+                      "{}=x:POSITION",
+                      name, name));
+    }
+  }
+  if (fixes.empty()) {
+    builder.warn(fmt::format(
+        "{}: no wall was read, so that forces of walls are missing if there are any; give each fix "
+        "wall/gran store_force yes, and dump its columns f_force_NAME[*]",
+        table.source()));
+  }
+}
+
+}  // namespace
+
+std::map<std::string, GivenWall> parse_walls(const std::vector<std::string>& items, const Plane& plane) {
+  std::map<std::string, GivenWall> walls;
+  for (const std::string& item : items) {
+    const std::size_t equals = item.find('=');
+    const std::size_t colon = item.find(':', equals == std::string::npos ? 0 : equals);
+    GivenWall wall{.text = item};
+    const bool has_form = equals != std::string::npos && equals > 0 && colon == equals + 2 &&
+                          parse_number(std::string_view(item).substr(colon + 1), &wall.position) &&
+                          std::isfinite(wall.position);
+    const char letter = has_form ? item[equals + 1] : '\0';
+    if (letter != Plane::letter(plane.first) && letter != Plane::letter(plane.second)) {
+      throw InputError(fmt::format("wall \"{}\" must have the form NAME={}:POSITION or NAME={}:POSITION",
+                                   item, Plane::letter(plane.first), Plane::letter(plane.second)));
+    }
+    wall.axis = letter == Plane::letter(plane.first) ? 0 : 1;
+    if (!walls.emplace(item.substr(0, equals), wall).second) {
+      throw InputError(fmt::format("wall {} is given twice", item.substr(0, equals)));
+    }
+  }
+  return walls;
+}
+
+ImportedPacking read_liggghts(const DumpFiles& files, const std::map<std::string, GivenWall>& walls,
+                              const ImportSettings& settings) {
+  const LammpsColumns names(settings.columns, settings.plane);
+  for (const char* key : {"atom1", "atom2", "fx", "fy", "p1", "p2", "mu"}) {
+    if (!names.is_named(key)) continue;
+    throw InputError(fmt::format("--columns: {} of LIGGGHTS has its place in the dump of contacts", key));
+  }
+  if (names.names_walls()) throw InputError("--columns: walls of LIGGGHTS are given by --walls");
+  const DumpPair dumps = read_dumps(files);
+  PackingBuilder builder("import liggghts", "atom", files.atoms.string(), settings);
+  if (dumps.is_periodic(settings.plane)) builder.set_periodic();
+  const std::vector<int> rows = read_lammps_atoms(dumps.atoms, names, settings.plane, builder);
+  read_pairs(dumps.contacts.table, settings.plane, builder);
+  read_walls(dumps.atoms.table, walls, settings.plane, rows, builder);
+  ImportedPacking imported = builder.build({0, -1});
+  warn_of_rounding(imported, dumps, names, 0);
+  warn_of_atoms_outside(imported, dumps.atoms, settings.plane);
+  return imported;
+}
+
+ImportFormat liggghts_format() {
+  return {.name = "liggghts",
+          .input = "",
+          .options = {"--atoms", "--contacts", "--timestep", "--friction", "--gravity", "--columns",
+                      "--fixed", "--force-unit", "--plane", "--walls"},
+          .documented = {Lever::kMidOverlap, Lever::kMidOverlap},
+          .lacks_friction = "a LIGGGHTS dump does not contain the friction coefficient",
+          .files = [](const ImportRequest& request) -> std::vector<std::filesystem::path> {
+            return {request.dumps.atoms, request.dumps.contacts};
+          },
+          .read =
+              [](const ImportRequest& request) {
+                return read_liggghts(request.dumps, parse_walls(request.walls, request.settings.plane),
+                                     request.settings);
+              }};
+}
+
+}  // namespace indet
