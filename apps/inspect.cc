@@ -133,7 +133,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"protocol", packing.origin.protocol},
       {"seed", packing.origin.seed < 0 ? nlohmann::json() : nlohmann::json(packing.origin.seed)},
       {"disks", packing.disk_count()},
-      {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
+      {"fixed_disks", packing.fixed_disk_count()},
       {"walls", packing.wall_count()},
       {"contacts", packing.contact_count()},
       {"levers", packing.has_levers()},
@@ -200,7 +200,7 @@ void print_packing(const FileContents& contents) {
     walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ",
                          wall.name.empty() ? fmt::format("{}", wall.id) : wall.name);
   }
-  const int fixed = packing.disk_count() - packing.free_disk_count();
+  const int fixed = packing.fixed_disk_count();
   print_line("packing",
              fmt::format("{}{}", packing.origin.protocol,
                          packing.origin.seed < 0 ? "" : fmt::format(", seed {}", packing.origin.seed)));

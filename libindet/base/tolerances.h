@@ -27,6 +27,13 @@ inline constexpr double kNormalDirection = 1e-4;
 /// the internal unit.
 inline constexpr double kBalance = 1e-6;
 
+/// Bodies whose surfaces are further apart than this, relative to the sum of their radii, cannot push each
+/// other.
+inline constexpr double kPushingDistance = 0.1;
+
+/// A component of a vector up to this, relative to its length, is printed as 0.
+inline constexpr double kPrintedComponent = 1e-9;
+
 /// Lever arms that leave net torques up to this (mg) are taken for equally good.
 inline constexpr double kAlikeLevers = 1e-12;
 
@@ -178,6 +185,10 @@ inline constexpr double kActive = 1e-9;
 /// |value|)) exceed these.
 inline constexpr double kImprovingSlope = 1e-9;
 inline constexpr double kImprovingGain = 1e-10;
+
+/// The directions of the polytope's edges are computed anew where the pivot of a change is below this beside
+/// the largest entry of the new row.
+inline constexpr double kDirectionPivot = 1e-3;
 
 /// The directions of the polytope's edges are lost where the smallest pivot of S_N is this small beside the
 /// largest.

@@ -101,6 +101,7 @@ struct Packing {
 
   int disk_count() const { return static_cast<int>(disks.size()); }
   int free_disk_count() const;  ///< N: disks that are not fixed.
+  int fixed_disk_count() const { return disk_count() - free_disk_count(); }
   /// 2M − 3N, the least nullity of c.
   int expected_dimension() const { return 2 * contact_count() - 3 * free_disk_count(); }
   int wall_count() const { return static_cast<int>(walls.size()); }
