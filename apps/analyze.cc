@@ -109,7 +109,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
   nlohmann::json json = summary_to_json(ranges);
   json.update({{"output", output},
                {"disks", packing.disk_count()},
-               {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
+               {"fixed_disks", packing.fixed_disk_count()},
                {"contacts", packing.contact_count()},
                {"expected_dim", packing.expected_dimension()},
                {"unique", ranges.unique.cast<int>().sum()},

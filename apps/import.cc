@@ -22,7 +22,7 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
   const Packing& packing = imported.packing;
   nlohmann::json json = {{"output", output},
                          {"disks", packing.disk_count()},
-                         {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
+                         {"fixed_disks", packing.fixed_disk_count()},
                          {"walls", packing.wall_count()},
                          {"contacts", packing.contact_count()},
                          {"gravity", {packing.gravity.x(), packing.gravity.y()}},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "apps/command.h"
 #include "apps/configuration.h"
@@ -14,10 +15,6 @@
 
 namespace indet::app {
 namespace {
-
-/// Options that only some formats take.
-constexpr const char* kSomeFormats[] = {"--atoms",   "--contacts", "--timestep",   "--friction", "--gravity",
-                                        "--columns", "--fixed",    "--force-unit", "--plane",    "--walls"};
 
 [[noreturn]] void fail(const std::string& reason) { throw UsageError(reason); }
 
@@ -58,7 +55,10 @@ bool takes(const ImportFormat& format, const std::string& option) {
 
 /// Every option that is given must be one that the format takes.
 void check_options(const ImportFormat& format, const CLI::App& command) {
-  for (const char* option : kSomeFormats) {
+  std::set<std::string> options;
+  for (const ImportFormat& other : import_formats())
+    options.insert(other.options.begin(), other.options.end());
+  for (const std::string& option : options) {
     if (command.count(option) == 0 || takes(format, option)) continue;
     std::vector<std::string> others;
     for (const ImportFormat& other : import_formats()) {

@@ -133,7 +133,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"protocol", packing.origin.protocol},
       {"seed", packing.origin.seed < 0 ? nlohmann::json() : nlohmann::json(packing.origin.seed)},
       {"disks", packing.disk_count()},
-      {"fixed_disks", packing.disk_count() - packing.free_disk_count()},
+      {"fixed_disks", packing.fixed_disk_count()},
       {"walls", packing.wall_count()},
       {"contacts", packing.contact_count()},
       {"levers", packing.has_levers()},
@@ -203,7 +203,7 @@ void print_packing(const FileContents& contents) {
     if (wall.is_free_along_normal()) walls += fmt::format(" (load_n = {:.4g} mg)", wall.load_n / unit);
     if (wall.is_free_along_tangent()) walls += fmt::format(" (load_t = {:.4g} mg)", wall.load_t / unit);
   }
-  const int fixed = packing.disk_count() - packing.free_disk_count();
+  const int fixed = packing.fixed_disk_count();
   print_line("packing",
              fmt::format("{}{}", packing.origin.protocol,
                          packing.origin.seed < 0 ? "" : fmt::format(", seed {}", packing.origin.seed)));

@@ -16,7 +16,7 @@ std::string describe_sliding(std::int64_t sliding, std::int64_t non_transmitting
 }
 
 std::string describe_disks(const Packing& packing) {
-  const int fixed = packing.disk_count() - packing.free_disk_count();
+  const int fixed = packing.fixed_disk_count();
   const std::string all = counted(packing.disk_count(), "disk");
   return fixed == 0 ? all : fmt::format("{} ({} fixed)", all, fixed);
 }

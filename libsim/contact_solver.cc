@@ -60,7 +60,7 @@ void ContactSolver::load(std::span<const SolverContact> contacts, std::span<cons
   ends.reserve(contacts.size());
   for (const SolverContact& c : contacts) ends.push_back({c.a, moves(c) ? c.b : -1});
   if (ends != ends_) {
-    order_ = sweep_groups(sweep_order(ends, count), ends);
+    order_ = group_pairs(sweep_order(ends, count), ends);
     ends_ = std::move(ends);
   }
 

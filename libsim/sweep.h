@@ -13,7 +13,14 @@ namespace indet::sim {
 struct alignas(32) FourLanes {
   Lanes low{0, 0}, high{0, 0};
   double operator[](std::size_t lane) const { return lane < 2 ? low[lane] : high[lane - 2]; }
-  void set(std::size_t lane, double value) { (lane < 2 ? low : high)[lane % 2] = value; }
+  void set(std::size_t lane, double value) {
+    // Not through a conditional operator: g++ 12 loses lane 3 of that with -fsanitize=bounds.
+    if (lane < 2) {
+      low[lane] = value;
+    } else {
+      high[lane - 2] = value;
+    }
+  }
 };
 
 /// Four contacts side by side that share no moving body, and the rows of their bodies.

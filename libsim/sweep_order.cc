@@ -58,8 +58,8 @@ std::vector<ContactPair> sweep_order(std::span<const ContactEnds> contacts, int 
   return order;
 }
 
-std::vector<std::array<int, 4>> sweep_groups(std::span<const ContactPair> order,
-                                             std::span<const ContactEnds> contacts) {
+std::vector<std::array<int, 4>> group_pairs(std::span<const ContactPair> order,
+                                            std::span<const ContactEnds> contacts) {
   std::vector<std::array<int, 4>> groups;
   for (std::size_t i = 0; i < order.size(); ++i) {
     groups.push_back({order[i][0], order[i][1], -1, -1});

@@ -23,7 +23,7 @@ std::vector<ContactPair> sweep_order(std::span<const ContactEnds> contacts, int 
 
 /// Two successive pairs of an order at a time, where they share no moving body, so that the four can be
 /// solved at once with the same result; else one pair and two places of −1.
-std::vector<std::array<int, 4>> sweep_groups(std::span<const ContactPair> order,
-                                             std::span<const ContactEnds> contacts);
+std::vector<std::array<int, 4>> group_pairs(std::span<const ContactPair> order,
+                                            std::span<const ContactEnds> contacts);
 
 }  // namespace indet::sim

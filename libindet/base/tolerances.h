@@ -33,6 +33,13 @@ inline constexpr double kCancellingLoads = 1e-9;
 /// A fixed body takes a direction of force if its own is not perpendicular to it to this (radian).
 inline constexpr double kFreeDirection = 1e-9;
 
+/// Bodies whose surfaces are further apart than this, relative to the sum of their radii, cannot push each
+/// other.
+inline constexpr double kPushingDistance = 0.1;
+
+/// A component of a vector up to this, relative to its length, is printed as 0.
+inline constexpr double kPrintedComponent = 1e-9;
+
 /// Lever arms that leave net torques up to this (mg) are taken for equally good.
 inline constexpr double kAlikeLevers = 1e-12;
 
@@ -184,6 +191,10 @@ inline constexpr double kActive = 1e-9;
 /// |value|)) exceed these.
 inline constexpr double kImprovingSlope = 1e-9;
 inline constexpr double kImprovingGain = 1e-10;
+
+/// The directions of the polytope's edges are computed anew where the pivot of a change is below this beside
+/// the largest entry of the new row.
+inline constexpr double kDirectionPivot = 1e-3;
 
 /// The directions of the polytope's edges are lost where the smallest pivot of S_N is this small beside the
 /// largest.

@@ -95,7 +95,7 @@ class View {
 
 /// The hatching of fixed disks, where there are any.
 std::string hatching(const Packing& packing) {
-  if (packing.free_disk_count() == packing.disk_count()) return "";
+  if (packing.fixed_disk_count() == 0) return "";
   return "<defs><pattern id='h' width='3' height='3' patternUnits='userSpaceOnUse' "
          "patternTransform='rotate(45)'><path d='M0 0v3'/></pattern></defs><style>.x{fill:url(#h)}</style>\n";
 }

@@ -45,7 +45,7 @@ void begin_table(std::string& text, std::string_view header, bool has_more, std:
 
 std::string disks_text(const Packing& packing, const FileIds& ids) {
   std::string text;
-  const bool has_fixed = packing.free_disk_count() < packing.disk_count();
+  const bool has_fixed = packing.fixed_disk_count() > 0;
   begin_table(text, kDisksBegin, has_fixed, kFixedColumn);
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     const Disk& d = packing.disks[i];

@@ -24,12 +24,12 @@ double median(std::vector<double> values) {
 
 /// A component that is nothing beside the vector is 0.
 double without_noise(double component, const Vector2& vector) {
-  return std::abs(component) <= 1e-9 * vector.norm() ? 0 : component;
+  return std::abs(component) <= tolerance::kPrintedComponent * vector.norm() ? 0 : component;
 }
 
-class Examination {
+class CauseSearch {
  public:
-  Examination(const ImportedPacking& imported, double tolerance)
+  CauseSearch(const ImportedPacking& imported, double tolerance)
       : imported_(imported),
         packing_(imported.packing),
         tolerance_(tolerance),
@@ -220,7 +220,7 @@ class Examination {
 }  // namespace
 
 std::vector<ImbalanceCause> find_causes(const ImportedPacking& imported, double tolerance) {
-  return Examination(imported, tolerance).causes();
+  return CauseSearch(imported, tolerance).causes();
 }
 
 }  // namespace indet

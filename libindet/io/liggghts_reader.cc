@@ -99,7 +99,7 @@ void read_wall(const std::string& name, const GivenWall& given, const Table& tab
     }
     Contact contact = builder.contact(DiskId(i), Body::wall(*wall), place);
     const double radius = packing[DiskId(i)].radius;
-    if (contact.gap > 0.1 * radius || contact.gap < -radius) {
+    if (contact.gap > tolerance::kPushingDistance * radius || contact.gap < -radius) {
       place.fail(
           fmt::format("wall {} pushes atom {}, but there is {:.3g} between their surfaces; is its plane {}?",
                       name, packing[DiskId(i)].id, contact.gap, given.text));
@@ -119,22 +119,20 @@ void read_walls(const Table& table, const std::map<std::string, GivenWall>& wall
           given.text, name,
           fixes.empty() ? "" : fmt::format(" (the file has those of {})", fmt::join(fixes, ", "))));
     }
-    for (int i = 1; i <= 3; ++i) table.require({column_of("f_force_" + name, i)});
   }
   for (const std::string& name : fixes) {
+    for (int i = 1; i <= 3; ++i) table.require({column_of("f_force_" + name, i)});
     if (const auto given = walls.find(name); given != walls.end()) {
       read_wall(name, given->second, table, plane, rows, builder);
       continue;
     }
     for (int row = 0; row < table.rows(); ++row) {
-      if (table.number(row, column_of("f_force_" + name, 1)) == 0 &&
-          table.number(row, column_of("f_force_" + name, 2)) == 0)
-        continue;
+      if (force_in_plane(table, row, "f_force_" + name, 1, plane).isZero(0)) continue;
       table.fail(
           row,
           fmt::format("wall {} pushes this atom, but no file says where it is: give its plane with --walls "
-                      "{}=x:POSITION",
-                      name, name));
+                      "{}={}:POSITION",
+                      name, name, Plane::letter(plane.first)));
     }
   }
   if (fixes.empty()) {

@@ -123,7 +123,7 @@ std::string PackingBuilder::bodies_of(const Contact& contact) const {
 void PackingBuilder::add_contact(const Contact& contact, const Place& place) {
   const double reach =
       packing_[contact.a].radius + (contact.b.is_wall() ? 0 : packing_[contact.b.disk_id()].radius);
-  if (contact.gap > 0.1 * reach && (contact.R != 0 || contact.T != 0)) {
+  if (contact.gap > tolerance::kPushingDistance * reach && (contact.R != 0 || contact.T != 0)) {
     place.fail(fmt::format("{} push each other, but their surfaces are {:.3g} apart; {}", bodies_of(contact),
                            contact.gap,
                            periodic_ ? "contacts across a periodic boundary are not supported"

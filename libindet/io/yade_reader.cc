@@ -162,7 +162,7 @@ ImportedPacking read_yade(const fs::path& input, const ImportSettings& settings)
 
 ImportFormat yade_format() {
   return {.name = "yade",
-          .input = "the folder that exporters/yade_export.py wrote, or the file of O.save (.xml, .xml.gz)",
+          .input = "the folder that yade_export.py wrote, or the file of O.save (.xml, .xml.gz)",
           .options = {"--friction", "--gravity", "--fixed", "--force-unit", "--plane"},
           .documented = {Lever::kMidOverlap, Lever::kMidOverlap},
           .lacks_friction = "",

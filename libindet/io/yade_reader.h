@@ -7,7 +7,7 @@
 
 namespace indet {
 
-/// Reads a packing of YADE: a folder that exporters/yade_export.py wrote, or a file of O.save
+/// Reads a packing of YADE: a folder that apps/exporters/yade_export.py wrote, or a file of O.save
 /// (docs/importing.md). Spheres are disks with their masses and moments of inertia; one all of whose motions
 /// in the plane are blocked is fixed. Walls, and boxes along the axes, are walls. Normals, forces and (from a
 /// folder) overlaps are those of the file. Friction and gravity are those of the file unless the settings

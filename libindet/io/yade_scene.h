@@ -45,8 +45,8 @@ struct YadeScene {
   std::vector<YadeInteraction> interactions;
 };
 
-/// Reads `bodies.txt` and `interactions.txt` in a folder, as exporters/yade_export.py writes them: one line a
-/// body or interaction, columns named by the last comment line before the first. Throws InputError.
+/// Reads `bodies.txt` and `interactions.txt` in a folder, as apps/exporters/yade_export.py writes them: one
+/// line a body or interaction, columns named by the last comment line before the first. Throws InputError.
 YadeScene read_yade_folder(const std::filesystem::path& folder);
 
 /// Reads what `O.save` wrote: the XML of boost's serialization, packed by gzip or not. Throws InputError.

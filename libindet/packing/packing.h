@@ -114,6 +114,7 @@ struct Packing {
 
   int disk_count() const { return static_cast<int>(disks.size()); }
   int free_disk_count() const;  ///< N: disks that are not fixed.
+  int fixed_disk_count() const { return disk_count() - free_disk_count(); }
   bool has_loaded_walls() const;
   /// 2M − 3N, less the directions in which walls are loaded: the least nullity of c.
   int expected_dimension() const;

@@ -127,8 +127,8 @@ Reason normal_defect(const Packing& packing, const Contact& contact) {
       contact.normal.x(), contact.normal.y(), expected.x(), expected.y());
 }
 
-/// Bodies that touch are nearer than the radius of the smaller one. Its centre is not behind a wall, and it is
-/// not wholly inside of a disk.
+/// Bodies that touch are nearer than the radius of the smaller one. Its centre is not behind a wall, and it
+/// is not wholly inside of a disk.
 Reason gap_defect(const Packing& packing, const Contact& contact) {
   const Disk& a = packing[contact.a];
   const double gap = geometric_gap(packing, contact.a, contact.b);
@@ -145,8 +145,8 @@ Reason gap_defect(const Packing& packing, const Contact& contact) {
     return fmt::format("the centre of disk {} is behind {}: does the normal ({}, {}) point into the domain?",
                        a.id, other, contact.normal.x(), contact.normal.y());
   }
-  return fmt::format("disk {} and {} overlap by {:.6g}, more than the diameter {:.6g} of the smaller one", a.id,
-                     other, -gap, 2 * radius);
+  return fmt::format("disk {} and {} overlap by {:.6g}, more than the diameter {:.6g} of the smaller one",
+                     a.id, other, -gap, 2 * radius);
 }
 
 Reason contact_defect(const Packing& packing, const Contact& contact) {

@@ -17,12 +17,14 @@ namespace {
 /// Walks at N = 95 take some tens of steps.
 constexpr std::int64_t kStepLimit = 100000;
 
+using Factors = Eigen::PartialPivLU<Eigen::MatrixXd>;
+
 /// The inverse of the active rows S_N: column k is the direction of the edge on which the inequality at place
 /// k is relaxed. Follows a change of one row by a change of rank one (d²), and is computed anew (d³) before
 /// rounding adds up.
 class EdgeDirections {
  public:
-  EdgeDirections(const SlopeView& view, const Basis& basis) { compute(view, basis); }
+  explicit EdgeDirections(const Factors& factors) { take(factors); }
 
   bool are_lost() const { return lost_; }
   auto direction(int place) const { return inverse_.col(place); }
@@ -31,9 +33,8 @@ class EdgeDirections {
     return inverse_.transpose() * objective.along_z;
   }
 
-  void compute(const SlopeView& view, const Basis& basis) {
+  void take(const Factors& factors) {
     changes_ = 0;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(view.slope(basis, Eigen::all));
     const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
     lost_ = !(pivots.minCoeff() > tolerance::kLostDirections * pivots.maxCoeff());
     if (!lost_) inverse_ = factors.inverse();
@@ -43,12 +44,11 @@ class EdgeDirections {
   /// the new S_N, with v = S⁻ᵀ times the new row. Returns false if it was computed anew.
   bool replace(const SlopeView& view, const Basis& basis, int place) {
     constexpr int kChanges = 32;
-    constexpr double kSmallPivot = 1e-3;
     const int row = basis[static_cast<std::size_t>(place)];
     Eigen::VectorXd v = inverse_.transpose() * view.slope.row(row).transpose();
     const double pivot = v[place];
-    if (++changes_ > kChanges || !(std::abs(pivot) > kSmallPivot * v.cwiseAbs().maxCoeff())) {
-      compute(view, basis);
+    if (++changes_ > kChanges || !(std::abs(pivot) > tolerance::kDirectionPivot * v.cwiseAbs().maxCoeff())) {
+      take(Factors(view.slope(basis, Eigen::all)));
       return false;
     }
     v[place] -= 1;
@@ -169,7 +169,7 @@ NeighbourWalk NeighbourSearch::walk(const Objective& objective, const Basis& sta
   const Vertex vertex = compute_vertex(view_, start);
   Eigen::VectorXd z = vertex.z;
   ExtremalPoint point{vertex.x, std::vector<char>(static_cast<std::size_t>(view_.inequalities()), 0),
-                      EdgeDirections(view_, start)};
+                      EdgeDirections(vertex.active)};
   for (const int k : start) point.is_active[static_cast<std::size_t>(k)] = 1;
   double value = objective.along_z.dot(z);
   std::vector<int> order(static_cast<std::size_t>(view_.dim()));

@@ -49,4 +49,11 @@ std::vector<std::string_view> parts(std::string_view bytes) {
   }
 }
 
+std::pair<std::filesystem::path, std::filesystem::path> write_two(std::string_view bytes,
+                                                                  const std::string& first,
+                                                                  const std::string& second) {
+  const auto both = parts(bytes);
+  return {write(first, both[0]), write(second, both.size() > 1 ? both[1] : std::string_view())};
+}
+
 }  // namespace indet::fuzz

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace indet::fuzz {
@@ -17,6 +18,11 @@ std::filesystem::path write(const std::string& name, std::string_view bytes);
 
 /// The parts of the input between lines of the form "=====".
 std::vector<std::string_view> parts(std::string_view bytes);
+
+/// Writes the first two parts of the input as files of these names.
+std::pair<std::filesystem::path, std::filesystem::path> write_two(std::string_view bytes,
+                                                                  const std::string& first,
+                                                                  const std::string& second);
 
 /// Calls the reader; input errors are what it is there for, anything else ends the process.
 template <class Reader>

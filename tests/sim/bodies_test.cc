@@ -157,7 +157,7 @@ TEST(Levers, OfChanceAreBalancedByThePolishAndByPerturbation) {
   std::erase_if(packing.contacts, [&](const Contact& contact) {
     return !packing.has_equations(contact.a) && !packing.has_equations(contact.b);
   });
-  const int fixed = packing.disk_count() - packing.free_disk_count();
+  const int fixed = packing.fixed_disk_count();
   ASSERT_GE(fixed, 3);
   const Polished polished = polish(packing, packing.simulated_forces().value(), {.sliding = 1e-4});
   ASSERT_TRUE(polished.balanced) << polished.reason;

@@ -72,12 +72,12 @@ TEST(SweepOrder, LeavesPlacesEmptyWhereAllContactsShareABody) {
   EXPECT_TRUE(sweep_order({}, 4).empty());
 }
 
-TEST(SweepGroups, JoinPairsInTheirOrderAndNoBodyTwice) {
+TEST(GroupPairs, JoinPairsInTheirOrderAndNoBodyTwice) {
   for (const auto& contacts : {lattice(7, 6), lattice(20, 20)}) {
     const auto order = sweep_order(contacts, 400);
     std::vector<ContactPair> pairs;
     std::size_t full = 0;
-    const auto groups = sweep_groups(order, contacts);
+    const auto groups = group_pairs(order, contacts);
     for (const auto& group : groups) {
       pairs.push_back({group[0], group[1]});
       if (group[2] >= 0) pairs.push_back({group[2], group[3]});

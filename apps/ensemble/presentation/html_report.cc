@@ -105,10 +105,8 @@ std::string note_on_verdicts(const EnsembleTables& tables) {
     text +=
         "\"agrees\": within two standard errors of the difference; where the paper gives no error, within 10 "
         "% or two standard errors of ours; where it says which is larger, larger by two standard errors. "
-        "\"not "
-        "decided\": the difference is less, our error is a quarter of the paper's number or more, or the "
-        "paper "
-        "gives no number. Sliding contacts are judged by the raw states, as the paper "
+        "\"not decided\": the difference is less, our error is more than a quarter of the paper's number, or "
+        "the paper gives no number. Sliding contacts are judged by the raw states, as the paper "
         "does not polish: its ε = 1e-9 counts contacts on their limit, and leaves out those that only the "
         "polish puts there. \"With other choices\" of what the paper leaves open (" +
         escaped(paper_choices_origin()) + "): docs/measurements/paper-choices.tsv.";
