@@ -26,25 +26,31 @@ std::optional<int> parse_count(const std::string& text) {
       "--contacts {}: expected all, sample:K (K contacts drawn at random), or a list like 3,7,12-20", text));
 }
 
-/// "3,7,12-20".
-std::vector<int> parse_list(const std::string& text, int contacts) {
+}  // namespace
+
+std::vector<int> parse_contact_list(const std::string& option, const std::string& whole,
+                                    const std::string& text, int contacts) {
+  const auto refuse = [&] {
+    throw UsageError(fmt::format("{} {}: expected a list of contacts like 3,7,12-20", option, whole));
+  };
   std::vector<int> list;
   std::istringstream items(text);
   for (std::string item; std::getline(items, item, ',');) {
     const std::size_t dash = item.find('-');
     const std::optional<int> first = parse_count(item.substr(0, dash));
     const std::optional<int> last = dash == std::string::npos ? first : parse_count(item.substr(dash + 1));
-    if (!first || !last || *last < *first) refuse_contacts(text);
+    if (!first || !last || *last < *first) refuse();
     if (*last >= contacts) {
-      throw UsageError(
-          fmt::format("--contacts {}: there is no contact {}; the packing has {}, numbered from 0", text,
-                      *last, counted(contacts, "contact")));
+      throw UsageError(fmt::format("{} {}: there is no contact {}; the packing has {}, numbered from 0",
+                                   option, whole, *last, counted(contacts, "contact")));
     }
     for (int contact = *first; contact <= *last; ++contact) list.push_back(contact);
   }
-  if (list.empty() || text.back() == ',') refuse_contacts(text);
+  if (list.empty() || text.back() == ',') refuse();
   return list;
 }
+
+namespace {
 
 ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
   const std::string& text = arguments.contacts;
@@ -63,7 +69,8 @@ ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
         "--seed has no effect without --contacts sample:K or --neighbour random, which draw by chance");
   if (text == "all") return choice;
   choice.kind = ContactChoice::Kind::kList;
-  choice.list = parse_list(text, contacts);
+  if (text.find_first_not_of("0123456789,-") != std::string::npos) refuse_contacts(text);
+  choice.list = parse_contact_list("--contacts", text, text, contacts);
   return choice;
 }
 

@@ -49,6 +49,11 @@ Enum value_of(const std::string& name, const std::array<Enum, n>& values) {
   return *std::find_if(values.begin(), values.end(), [&](Enum value) { return name == to_string(value); });
 }
 
+/// "3,7,12-20" as numbers, of which a range has each. Throws UsageError, which shows `whole`, the value of
+/// `option`, if `text` is no such list or names a contact that there is not.
+std::vector<int> parse_contact_list(const std::string& option, const std::string& whole,
+                                    const std::string& text, int contacts);
+
 /// For a packing with this number of contacts. Throws UsageError where options contradict each other or name
 /// a contact that there is not.
 AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const Context& context);

@@ -15,6 +15,7 @@
 
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
+#include "apps/condition.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
@@ -34,6 +35,7 @@ struct AnalyzeCommand {
   std::string output;
   bool overwrite = false;
   std::string method = "lp";
+  std::vector<std::string> conditions;
   AnalysisArguments arguments;
 };
 
@@ -145,6 +147,8 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                                     {"id", packing[DiskId(disk.index)].id},
                                     {"motion", {disk.motion.x(), disk.motion.y(), disk.motion.z()}}});
   }
+  for (const std::string& line : describe_contradiction(packing, ranges))
+    json["contradiction"].push_back(line);
   for (Eigen::Index w = 0; w < ranges.wall_motion.rows(); ++w) {
     const auto motion = ranges.wall_motion.row(w);
     if (motion.norm() <= tolerance::kMotionEntry) continue;
@@ -158,6 +162,11 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
 }
 
 void print_motion(const Packing& packing, const ForceRanges& ranges) {
+  if (const auto contradiction = describe_contradiction(packing, ranges); !contradiction.empty()) {
+    fmt::print("No contact forces balance the load, keep to friction and to the bounds of forces.\n");
+    for (const std::string& line : contradiction) fmt::print("{}.\n", line);
+    return;
+  }
   fmt::print(
       "The packing cannot stand: no contact forces within the friction cones balance the load.\n"
       "It can move as follows, with the load and against no contact (velocity x, y, and radius × "
@@ -299,7 +308,8 @@ ForceRanges prove(const Packing& packing, const Context& context, const ForceRan
 }
 
 int run(const AnalyzeCommand& options, const Context& context) {
-  const Packing packing = read_packing(open_packing(options.packing));
+  Packing packing = read_packing(open_packing(options.packing));
+  apply_conditions(options.conditions, packing, options.packing);
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
   claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
@@ -345,6 +355,7 @@ Command add_analyze(CLI::App& root) {
           "extremal point to the next, as published; pivoting-tableau: by the same walk, made fast")
       ->check(CLI::IsMember(names_of(kMethods)))
       ->capture_default_str();
+  add_condition_option(*command, options->conditions);
   add_analysis_options(*command, options->arguments, Levels::kWithExact);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }

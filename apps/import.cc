@@ -13,6 +13,7 @@
 #include "libindet/io/balance.h"
 #include "libindet/io/lever_search.h"
 #include "libindet/io/packing_file.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet::app {
 namespace {
@@ -33,6 +34,7 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
                          {"duplicates", report.duplicates},
                          {"levers", packing.has_levers()},
                          {"loaded_walls", packing.has_loaded_walls()},
+                         {"bounds", force_bounds(packing).size()},
                          {"without_equations", imported.without_equations},
                          {"loose_disks", report.loose_disks},
                          {"balance_tolerance", tolerance},
@@ -125,6 +127,7 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
   }
   if (packing.has_levers() && !imported.levers)
     fmt::print("levers              {}\n", describe_levers(packing));
+  if (packing.has_bounds()) fmt::print("bounds of forces    {}\n", force_bounds(packing).size());
   fmt::print("listed twice        {}\n", report.duplicates);
   if (imported.without_equations > 0)
     fmt::print("left out            {} between two bodies that do not move\n",

@@ -25,6 +25,7 @@
 #include "libindet/io/file_kind.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet::app {
 namespace {
@@ -138,6 +139,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"contacts", packing.contact_count()},
       {"levers", packing.has_levers()},
       {"loaded_walls", packing.has_loaded_walls()},
+      {"bounds", force_bounds(packing).size()},
       {"gravity", {packing.gravity.x(), packing.gravity.y()}},
       {"force_unit", packing.force_unit()},
       {"r_max", packing.max_radius()},
@@ -214,6 +216,8 @@ void print_packing(const FileContents& contents) {
   print_line("  contacts",
              fmt::format("{} (2M − 3N = {})", packing.contact_count(), packing.expected_dimension()));
   if (packing.has_levers()) print_line("  levers", describe_levers(packing));
+  if (packing.has_bounds())
+    print_line("  bounds", fmt::format("{} of R and T", force_bounds(packing).size()));
   print_line("  friction",
              friction.low == friction.high ? fmt::format("{:g}", friction.low) : span_text(friction, ""));
   if (packing.origin.width > 0 && packing.origin.height > 0) {

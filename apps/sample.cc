@@ -9,6 +9,7 @@
 
 #include "apps/bridge/perturb_record.h"
 #include "apps/command.h"
+#include "apps/condition.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/sample_uniform.h"
@@ -25,6 +26,7 @@ struct SampleOptions {
   std::string method = "perturb";
   std::uint64_t seed = 0;
   int chains = 0;  ///< 0: the default of the method
+  std::vector<std::string> conditions;
   sim::PerturbOptions perturb;
   UniformSettings uniform;
 };
@@ -68,12 +70,17 @@ int run(SampleOptions o, const Context& context) {
   refuse_unused(o);
   const auto begin = std::chrono::steady_clock::now();
   const Hdf5File file = open_packing(o.file);
-  const Packing packing = read_packing(file);
+  Packing packing = read_packing(file);
+  apply_conditions(o.conditions, packing, o.file);
   if (!o.output.empty())
     claim_output(o.output, FileKind::kSamples, replacement_rule({o.file}, o.overwrite, context));
   o.uniform.sampling.seed = o.perturb.seed = o.seed;
   if (o.chains != 0) o.uniform.sampling.chains = o.perturb.chains = o.chains;
-  if (o.method == "uniform") return sample_uniformly(file, o.output, packing, o.uniform, context);
+  if (o.method == "uniform") {
+    UniformSettings uniform = o.uniform;
+    uniform.conditioned = !o.conditions.empty();
+    return sample_uniformly(file, o.output, packing, uniform, context);
+  }
   o.perturb.threads = context.thread_count();
   const sim::PerturbEnsemble ensemble = sim::perturb_and_resolve(packing, o.perturb, context.progress());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -184,6 +191,7 @@ Command add_sample(CLI::App& root) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
+  add_condition_option(*command, options->conditions);
   add_perturb_options(*command, perturb);
   add_uniform_options(*command, options->uniform);
   command->add_option("-o,--output", options->output,

@@ -121,7 +121,7 @@ void print(const Packing& packing, const Findings& f, const UniformSettings& set
 
 void find_shape(const Hdf5File& file, const Packing& packing, const UniformSettings& settings,
                 const Context& context, Findings& f, std::optional<ForceRanges>& ranges) {
-  if (has_ranges(file)) {
+  if (has_ranges(file) && !settings.conditioned) {
     ranges = read_ranges(file);
   } else {
     AnalyzeOptions options;

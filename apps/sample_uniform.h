@@ -11,6 +11,7 @@ namespace indet::app {
 
 struct UniformSettings {
   UniformOptions sampling;
+  bool conditioned = false;  ///< the packing has bounds that are not the file's
   int states = 0;            ///< how many of the samples are written
   bool covariance = false;   ///< all covariances are written
   bool shape = false;        ///< size and shape of the polytope too

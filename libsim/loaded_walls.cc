@@ -7,6 +7,12 @@
 namespace indet::sim {
 
 void refuse_loaded_walls(const Packing& packing, const char* what) {
+  if (packing.has_bounds()) {
+    throw InputError(
+        fmt::format("{} keeps to no bounds of forces (R_lo, R_hi, T_lo, T_hi), which this packing has; "
+                    "ranges, and samples with --method uniform, do",
+                    what));
+  }
   for (const Wall& wall : packing.walls) {
     if (!wall.is_loaded()) continue;
     throw InputError(

@@ -40,6 +40,9 @@ inline constexpr double kPushingDistance = 0.1;
 /// A component of a vector up to this, relative to its length, is printed as 0.
 inline constexpr double kPrintedComponent = 1e-9;
 
+/// Half intervals of bounds of forces that agree to this, relative to them, are called one error.
+inline constexpr double kSameError = 1e-6;
+
 /// Lever arms that leave net torques up to this (mg) are taken for equally good.
 inline constexpr double kAlikeLevers = 1e-12;
 

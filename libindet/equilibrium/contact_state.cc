@@ -51,6 +51,13 @@ double largest_imbalance(const Packing& packing, const SceneForces& forces) {
   return largest;
 }
 
+double worst_bound_violation(const Packing& packing, const SceneForces& forces) {
+  double worst = 0;
+  for (const ForceBound& bound : force_bounds(packing))
+    worst = std::max(worst, -slack(bound, forces.value()));
+  return worst / packing.force_unit();
+}
+
 CoulombCount count_coulomb(const Packing& packing, const SceneForces& forces, double epsilon) {
   CoulombCount count;
   const ForceUnits units = packing.force_units();

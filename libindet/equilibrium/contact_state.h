@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "libindet/packing/force_bounds.h"
 #include "libindet/packing/packing.h"
 
 namespace indet {
@@ -17,6 +18,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Pa
 
 /// The largest of both, by magnitude; 0 for a packing without bodies.
 double largest_imbalance(const Packing& packing, const SceneForces& forces);
+
+/// The largest amount by which forces break a bound that the scene sets (force_bounds.h), mg; 0 if none.
+double worst_bound_violation(const Packing& packing, const SceneForces& forces);
 
 /// How a contact state stands to the Coulomb conditions [16], with tolerance ε (in the internal unit of
 /// force, which is mg unless the scene names a unit that says little about it). Of an unknown force (NaN) no

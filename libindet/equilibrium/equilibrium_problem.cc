@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace indet {
 namespace {
@@ -73,7 +74,7 @@ class RowNumbering {
         if (!needed[number][component] && wrench[k] == 0) continue;
         numbers_[number][component] = static_cast<int>(rows_.size());
         const double weight = k < 2 ? std::abs(disk.mass * packing.gravity[k]) : 0;
-        rows_.push_back({Body::disk(DiskId(i)), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
+        rows_.push_back({Body::disk(DiskId(i)), -1, k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
                          weight + std::abs(disk.load[k])});
       }
     }
@@ -85,7 +86,7 @@ class RowNumbering {
         const auto component = static_cast<std::size_t>(k);
         if (std::isnan(load) || (!needed_of_wall[number][component] && load == 0)) continue;
         wall_numbers_[number][component] = static_cast<int>(rows_.size());
-        rows_.push_back({Body::wall(WallId(w)), k, units.internal_in_scene(), std::abs(load)});
+        rows_.push_back({Body::wall(WallId(w)), -1, k, units.internal_in_scene(), std::abs(load)});
       }
     }
   }
@@ -121,6 +122,56 @@ void add_column(const RowNumbering& number, const Contact& contact, const Contac
   const int along_tangent = number(contact.b.wall_id(), 1);
   if (along_normal >= 0 && R != 0) out.emplace_back(along_normal, column, -R);
   if (along_tangent >= 0 && T != 0) out.emplace_back(along_tangent, column, -T);
+}
+
+/// The unit of the problem: the internal one, unless some bounds of a force are so narrow that tolerances
+/// would not tell them apart. Then it is a power of two next to half of the narrowest interval.
+ForceUnits problem_units(const Packing& packing) {
+  ForceUnits units = packing.force_units();
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (const ForceBound& bound : force_bounds(packing)) {
+    if (bound.is_two_sided()) narrowest = std::min(narrowest, std::abs(bound.value - bound.other) / 2);
+  }
+  constexpr double kNarrow = 1e-3;
+  if (!(narrowest < kNarrow * units.internal_in_scene())) return units;
+  return {packing.force_unit(), std::exp2(std::round(std::log2(narrowest)))};
+}
+
+/// The rows of bounds.
+std::vector<BoundRow> rows_of(const std::vector<ForceBound>& bounds, double unit) {
+  using Side = ForceBound::Side;
+  std::vector<BoundRow> rows;
+  for (const ForceBound& bound : bounds) {
+    BoundRow row{bound, bound.value / unit};
+    if (bound.is_two_sided()) {
+      row.follows_lower =
+          bound.side == Side::kUpper && !rows.empty() && rows.back().bound.component() == bound.component();
+      if (row.follows_lower) row.value = (bound.value - bound.other) / unit;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Adds what a force (R, T) of one contact enters of the rows of bounds, of which `first_row` is the first.
+void add_to_bounds(const std::vector<BoundRow>& bounds, int first_row, ContactId contact, double R, double T,
+                   int column, Triplets& out) {
+  const auto begin =
+      std::lower_bound(bounds.begin(), bounds.end(), contact.value(),
+                       [](const BoundRow& row, int c) { return row.bound.contact.value() < c; });
+  for (auto row = begin; row != bounds.end() && row->bound.contact == contact; ++row) {
+    const double force = row->bound.tangential ? T : R;
+    if (!row->follows_lower && force != 0)
+      out.emplace_back(first_row + static_cast<int>(row - bounds.begin()), column, force);
+  }
+}
+
+/// Adds the column of the slack of bound k.
+void add_slack(const std::vector<BoundRow>& bounds, int first_row, int k, int column, Triplets& out) {
+  const auto i = static_cast<std::size_t>(k);
+  const bool is_lower = bounds[i].bound.side == ForceBound::Side::kLower;
+  out.emplace_back(first_row + k, column, is_lower ? -1 : 1);
+  if (i + 1 < bounds.size() && bounds[i + 1].follows_lower) out.emplace_back(first_row + k + 1, column, 1);
 }
 
 /// What acts in an equation, in a unit of force.
@@ -161,6 +212,13 @@ void describe_unknowns(EquilibriumProblem& problem) {
     }
     column += count;
   }
+  for (std::size_t k = 0; k < problem.bounds.size(); ++k) {
+    const BoundRow& row = problem.bounds[k];
+    if (!row.has_slack()) continue;
+    problem.edges.push_back({row.bound.contact, 0, 0, 0, static_cast<int>(k)});
+    to_edges.emplace_back(column, column, 1);
+    ++column;
+  }
   const int components = 2 * static_cast<int>(problem.modes.size());
   problem.to_edges = assemble(column, column, to_edges);
   problem.edge_forces = assemble(components, column, edge_forces);
@@ -177,9 +235,17 @@ std::vector<ContactMode> natural_modes(const Packing& packing) {
   return modes;
 }
 
+int EquilibriumProblem::half_plane(const Edge& edge) const {
+  if (!edge.is_slack()) return 2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0);
+  const auto is_equal = [](const BoundRow& row) { return row.bound.side == ForceBound::Side::kEqual; };
+  const auto equal = std::count_if(bounds.begin(), bounds.begin() + edge.bound, is_equal);
+  return 2 * static_cast<int>(modes.size()) + edge.bound - static_cast<int>(equal);
+}
+
 std::vector<int> EquilibriumProblem::first_unknowns() const {
   std::vector<int> first(modes.size(), -1);
-  for (int k = unknowns() - 1; k >= 0; --k) first[static_cast<std::size_t>(edge(k).contact.value())] = k;
+  for (int k = unknowns() - 1; k >= 0; --k)
+    if (!edge(k).is_slack()) first[static_cast<std::size_t>(edge(k).contact.value())] = k;
   return first;
 }
 
@@ -188,6 +254,10 @@ Eigen::VectorXd EquilibriumProblem::unknowns_of(const InternalForces& state) con
   Eigen::VectorXd u(unknowns());
   for (int k = 0; k < unknowns(); ++k) {
     const Edge& edge = this->edge(k);
+    if (edge.is_slack()) {
+      u[k] = slack(bounds[static_cast<std::size_t>(edge.bound)].bound, F, units.internal_in_scene());
+      continue;
+    }
     const int contact = edge.contact.value();
     u[k] = is_stick(edge) ? F[2 * contact + (edge.sign < 0 ? 1 : 0)] : F[2 * contact] / edge.R;
   }
@@ -199,6 +269,11 @@ Eigen::VectorXd EquilibriumProblem::strengths_of(const InternalForces& state) co
   Eigen::VectorXd x(unknowns());
   for (int k = 0; k < unknowns(); ++k) {
     const Edge& edge = this->edge(k);
+    if (edge.is_slack()) {
+      const BoundRow& row = bounds[static_cast<std::size_t>(edge.bound)];
+      x[k] = slack(row.bound, F, units.internal_in_scene());
+      continue;
+    }
     const int contact = edge.contact.value();
     const double R = F[2 * contact] / edge.R;
     x[k] = is_stick(edge) ? (R + F[2 * contact + 1] / edge.T) / 2 : R;
@@ -208,12 +283,20 @@ Eigen::VectorXd EquilibriumProblem::strengths_of(const InternalForces& state) co
 
 EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes) {
   EquilibriumProblem problem;
-  problem.units = packing.force_units();
+  problem.units = problem_units(packing);
   problem.disks = packing.disk_count();
   problem.walls = packing.wall_count();
   problem.modes.assign(modes.begin(), modes.end());
   const RowNumbering number(packing, modes, problem.units);
   problem.rows = number.rows();
+  const double unit = problem.units.internal_in_scene();
+  const int first_bound = static_cast<int>(problem.rows.size());
+  problem.bounds = rows_of(force_bounds(packing), unit);
+  for (std::size_t k = 0; k < problem.bounds.size(); ++k) {
+    const ForceBound& bound = problem.bounds[k].bound;
+    const double size = std::abs(bound.value) + (bound.is_two_sided() ? std::abs(bound.other) : 0);
+    problem.rows.push_back({.body = {}, .bound = static_cast<int>(k), .unit = unit, .load = size});
+  }
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];
     ContactEnds ends{contact.normal, contact.mu};
@@ -232,14 +315,23 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   Triplets edge_matrix;
   for (int column = 0; column < static_cast<int>(problem.edges.size()); ++column) {
     const Edge& edge = problem.edges[static_cast<std::size_t>(column)];
+    if (edge.is_slack()) {
+      add_slack(problem.bounds, first_bound, edge.bound, column, edge_matrix);
+      add_slack(problem.bounds, first_bound, edge.bound, column, matrix);
+      continue;
+    }
     const Contact& contact = packing[edge.contact];
     const ContactEnds& ends = problem.contacts[static_cast<std::size_t>(edge.contact.value())];
-    add_column(number, contact, ends, edge.R, edge.T, column, edge_matrix);
+    const auto add = [&](double R, double T, Triplets& out) {
+      add_column(number, contact, ends, R, T, column, out);
+      add_to_bounds(problem.bounds, first_bound, edge.contact, R, T, column, out);
+    };
+    add(edge.R, edge.T, edge_matrix);
     if (problem.is_stick(edge)) {
       const bool is_normal = edge.sign > 0;
-      add_column(number, contact, ends, is_normal ? 1 : 0, is_normal ? 0 : 1, column, matrix);
+      add(is_normal ? 1 : 0, is_normal ? 0 : 1, matrix);
     } else {
-      add_column(number, contact, ends, edge.R, edge.T, column, matrix);
+      add(edge.R, edge.T, matrix);
     }
   }
   const int equations = static_cast<int>(problem.rows.size());
@@ -249,7 +341,8 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   problem.right_hand_sides.resize(equations, 1);
   for (int row = 0; row < equations; ++row) {
     const EquilibriumRow& r = problem.rows[static_cast<std::size_t>(row)];
-    problem.right_hand_sides(row, 0) = -load_of(packing, r, problem.units.internal_in_scene());
+    problem.right_hand_sides(row, 0) =
+        r.bound >= 0 ? problem.bounds[static_cast<std::size_t>(r.bound)].value : -load_of(packing, r, unit);
   }
   return problem;
 }
@@ -258,17 +351,24 @@ EquilibriumProblem pose_equilibrium(const Packing& packing) {
   return pose_equilibrium(packing, natural_modes(packing));
 }
 
-EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<const ContactMode> modes) {
+EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<const ContactMode> modes,
+                                  std::span<const int> closed_bounds) {
   EquilibriumProblem result;
   result.units = problem.units;
   result.disks = problem.disks;
   result.walls = problem.walls;
   result.modes.assign(modes.begin(), modes.end());
   result.contacts = problem.contacts;
+  result.bounds = problem.bounds;
+  for (const int k : closed_bounds) result.bounds[static_cast<std::size_t>(k)].closed = true;
   describe_unknowns(result);
 
   // The columns that are left: of a contact that sticks both, else that of its edge.
   const std::vector<int> first = problem.first_unknowns();
+  std::vector<int> slacks(problem.bounds.size(), -1);
+  for (int k = 0; k < problem.unknowns(); ++k) {
+    if (problem.edge(k).is_slack()) slacks[static_cast<std::size_t>(problem.edge(k).bound)] = k;
+  }
   Triplets matrix;
   Triplets edge_matrix;
   std::vector<bool> needed(static_cast<std::size_t>(problem.equations()), false);
@@ -280,6 +380,12 @@ EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<c
   };
   for (int column = 0; column < static_cast<int>(result.edges.size()); ++column) {
     const Edge& edge = result.edges[static_cast<std::size_t>(column)];
+    if (edge.is_slack()) {
+      const int old = slacks[static_cast<std::size_t>(edge.bound)];
+      copy(problem.edge_matrix, old, column, edge_matrix);
+      copy(problem.matrix, old, column, matrix);
+      continue;
+    }
     const int before = first[static_cast<std::size_t>(edge.contact.value())];
     const bool was_stick = problem.is_stick(problem.edge(before));
     const int old = before + (was_stick && edge.sign < 0 ? 1 : 0);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "libindet/packing/force_bounds.h"
 #include "libindet/packing/packing.h"
 
 namespace indet {
@@ -23,23 +24,39 @@ enum class ContactMode : std::uint8_t { kStick, kSlidePlus, kSlideMinus, kFricti
 /// kStick where μ > 0, kFrictionless where μ = 0: what the scene allows.
 std::vector<ContactMode> natural_modes(const Packing& packing);
 
-/// What one equation balances.
+/// What one equation balances, or which bound it poses.
 struct EquilibriumRow {
   Body body;
+  int bound = -1;     ///< ≥ 0: not an equation of a body, but of this bound (EquilibriumProblem::bounds)
   int component = 0;  ///< disk: 0 force x, 1 force y, 2 torque divided by the radius; wall: 0 n̂, 1 t̂
   double unit = 1;    ///< of the equation as it would read in the scene's units: the internal unit of force,
                       ///< times the radius for a torque
   double load = 0;    ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
 };
 
-/// An unknown: the strength x ≥ 0 of one edge of one contact's cone.
+/// A bound of a force as rows of the problem: F − s = lo, F + s = hi, or where a force has both
+/// F − s = lo, s + s′ = hi − lo, with slacks s ≥ 0. A
+/// slack is a further unknown, and the strength of an edge of its own. Numbers are in the problem's unit.
+struct BoundRow {
+  ForceBound bound;
+  double value = 0;            ///< of the row: lo, hi or hi − lo
+  bool closed = false;         ///< the slack is 0 in every state, and no unknown
+  bool follows_lower = false;  ///< s + s′ = hi − lo, after the row of the same force's lo
+
+  bool has_slack() const { return !closed && bound.side != ForceBound::Side::kEqual; }
+};
+
+/// An unknown: the strength x ≥ 0 of one edge of one contact's cone, or the slack of a bound.
 /// With κ = 1/max(1, μ), so that neither component of an edge exceeds 1:
 ///   R = κ Σ x,  T = κ μ Σ ± x,  and for kStick  μR + T = 2κμ x₊,  μR − T = 2κμ x₋.
 struct Edge {
   ContactId contact;
-  int sign = 0;  ///< +1: T = +μR, −1: T = −μR, 0: frictionless.
-  double R = 0;  ///< R of the edge for x = 1: κ.
-  double T = 0;  ///< T of the edge for x = 1: ±κμ.
+  int sign = 0;    ///< +1: T = +μR, −1: T = −μR, 0: frictionless.
+  double R = 0;    ///< R of the edge for x = 1: κ.
+  double T = 0;    ///< T of the edge for x = 1: ±κμ.
+  int bound = -1;  ///< ≥ 0: no edge of a cone but the slack of this bound; sign, R and T are 0
+
+  bool is_slack() const { return bound >= 0; }
 };
 
 /// The two ends of a contact in the equations. One that is open (kOpen) has none there.
@@ -62,16 +79,18 @@ struct ContactEnds {
 /// and l/r, whatever the scale of the scene: 1, unless the contact has another lever arm l. A disk whose
 /// contacts are all frictionless has no torque equation (unless a torque acts on it); a fixed disk, and one
 /// with neither contact nor load, has none. A loaded wall has −ΣR = −load_n, −ΣT = −load_t, what of it is
-/// given: as body b of its contacts it takes their forces with the minus sign, as a disk does.
+/// given: as body b of its contacts it takes their forces with the minus sign, as a disk does. Rows of bounds
+/// come last.
 ///
 /// Columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or nothing
-/// (kOpen):   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
+/// (kOpen); then the slacks s of bounds:   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
 struct EquilibriumProblem {
   Eigen::SparseMatrix<double> matrix;    ///< A: equations × unknowns
   Eigen::MatrixXd right_hand_sides;      ///< equations × loads: b, one column a load; the first is what acts
   std::vector<EquilibriumRow> rows;      ///< what each equation is
   std::vector<ContactMode> modes;        ///< M
   std::vector<ContactEnds> contacts;     ///< M
+  std::vector<BoundRow> bounds;          ///< of force_bounds(packing), in its order
   std::vector<Edge> edges;               ///< unknowns (there are as many edges as unknowns)
   Eigen::SparseMatrix<double> to_edges;  ///< unknowns × unknowns, block diagonal: x = to_edges · u;
                                          ///< F ∈ K ⇔ x ≥ 0
@@ -88,8 +107,10 @@ struct EquilibriumProblem {
   double mu(const Edge& edge) const { return contacts[static_cast<std::size_t>(edge.contact.value())].mu; }
   /// Both edges of its contact are open.
   bool is_stick(const Edge& edge) const {
-    return modes[static_cast<std::size_t>(edge.contact.value())] == ContactMode::kStick;
+    return !edge.is_slack() && modes[static_cast<std::size_t>(edge.contact.value())] == ContactMode::kStick;
   }
+  /// The number of an edge's half-plane in files (force_bounds.h).
+  int half_plane(const Edge& edge) const;
   /// The first unknown of each contact; −1 if it has none. M.
   std::vector<int> first_unknowns() const;
   /// b of the load that acts.
@@ -108,7 +129,9 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
 /// With every contact as the scene has it.
 EquilibriumProblem pose_equilibrium(const Packing& packing);
 
-/// The same problem with other modes. Edges may only be closed: no mode allows more than the one it replaces.
-EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<const ContactMode> modes);
+/// The same problem with other modes, and some bounds closed. Edges may only be closed: no mode allows more
+/// than the one it replaces.
+EquilibriumProblem restrict_modes(const EquilibriumProblem& problem, std::span<const ContactMode> modes,
+                                  std::span<const int> closed_bounds = {});
 
 }  // namespace indet

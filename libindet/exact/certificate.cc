@@ -143,7 +143,7 @@ bool proves_emptiness(const ContactProblem& problem, std::span<const double> gue
     for (std::size_t k = 0; k < column.row.size(); ++k)
       power += std::ldexp(column.value[k].get_d(), static_cast<int>(-column.shift)) *
                guess[static_cast<std::size_t>(column.row[k])];
-    const double mu = problem.mu(e / 2).get_d();
+    const double mu = problem.is_slack(e) ? 0 : problem.mu(e / 2).get_d();
     if (std::abs(power) <= zero * std::max(1.0, mu)) still.push_back(e);
   }
   const auto motion = Motion::repair(problem, still, true, guess);

@@ -43,6 +43,11 @@ std::unique_ptr<ContactBasis> ContactBasis::create(const ContactProblem& problem
       basis->full_.push_back(&problem.edge(edge));
     }
   }
+  for (const int e : basis->edges_) {
+    if (!problem.is_slack(e)) continue;
+    basis->variables_.push_back({-1, 2, e});
+    basis->full_.push_back(&problem.edge(e));
+  }
   for (const IntegerColumn* column : basis->full_)
     basis->columns_.push_back(on_rows(*column, problem.row_number()));
   std::vector<const IntegerColumn*> pointers;
@@ -98,9 +103,17 @@ mpq_class ContactBasis::value(const RationalVector& x, std::size_t v) const {
   return scaled(x[v], full_[v]->shift);
 }
 
+std::size_t ContactBasis::first_variable(int edge) const {
+  if (!problem_.is_slack(edge))
+    return static_cast<std::size_t>(first_variable_[static_cast<std::size_t>(edge / 2)]);
+  // Slacks are the last variables, in the order of their edges.
+  const auto after = edges_.end() - std::lower_bound(edges_.begin(), edges_.end(), edge);
+  return variables_.size() - static_cast<std::size_t>(after);
+}
+
 int ContactBasis::sign_of(const RationalVector& x, int edge) const {
   const int contact = edge / 2;
-  const auto v = static_cast<std::size_t>(first_variable_[static_cast<std::size_t>(contact)]);
+  const std::size_t v = first_variable(edge);
   if (variables_[v].kind == 2) return sgn(x.numerator[v]);
   // 2μx± = μR ± T
   const mpq_class R = scaled(mpq_class(x.numerator[v]), full_[v]->shift);
@@ -133,7 +146,7 @@ mpq_class ContactBasis::force(int component) const {
 }
 
 mpq_class ContactBasis::edge_cost(int edge, const Goal& goal) const {
-  if (goal.component / 2 != edge / 2) return 0;
+  if (problem_.is_slack(edge) || goal.component / 2 != edge / 2) return 0;
   if (goal.component % 2 == 0) return goal.sign;
   const mpq_class mu = problem_.mu(edge / 2);
   return edge % 2 == 0 ? goal.sign * mu : -goal.sign * mu;
@@ -196,13 +209,12 @@ int ContactBasis::first_blocking(int entering) const {
 int ContactBasis::first_raising(int leaving) const {
   // The strength of the leaving edge as a functional of the variables: μR ± T (a positive multiple), or x
   // itself.
-  const int contact = leaving / 2;
-  const auto v = static_cast<std::size_t>(first_variable_[static_cast<std::size_t>(contact)]);
+  const std::size_t v = first_variable(leaving);
   std::vector<mpq_class> functional(variables_.size(), 0);
   if (variables_[v].kind == 2) {
     functional[v] = 1;
   } else {
-    functional[v] = scaled(problem_.mu(contact), full_[v]->shift);
+    functional[v] = scaled(problem_.mu(leaving / 2), full_[v]->shift);
     functional[v + 1] = scaled(mpq_class(leaving % 2 == 0 ? 1 : -1), full_[v + 1]->shift);
   }
   mpz_class scale = 1;

@@ -55,7 +55,7 @@ class ContactBasis {
   explicit ContactBasis(const ContactProblem& problem) : problem_(problem) {}
   struct Variable {
     int contact = 0;
-    int kind = 0;  ///< 0: R of a contact with both edges, 1: its T; 2: an edge
+    int kind = 0;  ///< 0: R of a contact with both edges, 1: its T; 2: an edge, or a slack (contact −1)
     int edge = -1;
   };
   mpq_class cost(const Variable& variable, const Goal& goal) const;
@@ -64,6 +64,8 @@ class ContactBasis {
   mpq_class value(const RationalVector& x, std::size_t v) const;
   /// Sign of the strength of a basic edge in a solution of B' x' = b'.
   int sign_of(const RationalVector& x, int edge) const;
+  /// The variable of a basic edge, or of R where both of its contact's edges are basic.
+  std::size_t first_variable(int edge) const;
   /// y · A_e · 2^shift of the column, times the denominator of y.
   mpz_class product(const RationalVector& y, int edge) const;
   bool satisfies_all_rows() const;

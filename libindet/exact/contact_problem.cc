@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "libindet/packing/force_bounds.h"
+
 namespace indet::exact {
 namespace {
 
@@ -135,7 +137,7 @@ Entries force_entries(const Packing& packing, const RowNumbers& number, const in
 
 }  // namespace
 
-std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces) {
+std::vector<double> edge_growths(const Packing& packing, std::span<const double> forces) {
   std::vector<double> strengths;
   strengths.reserve(forces.size());
   for (std::size_t i = 0; i < packing.contacts.size(); ++i) {
@@ -144,6 +146,21 @@ std::vector<double> edge_strengths(const Packing& packing, std::span<const doubl
     const double T = forces[2 * i + 1];
     strengths.push_back(mu > 0 ? (R + T / mu) / 2 : R);
     strengths.push_back(mu > 0 ? (R - T / mu) / 2 : R);
+  }
+  for (const ForceBound& bound : force_bounds(packing)) {
+    const double force = forces[static_cast<std::size_t>(bound.component())];
+    if (bound.side != ForceBound::Side::kEqual)
+      strengths.push_back(bound.side == ForceBound::Side::kLower ? force : -force);
+  }
+  return strengths;
+}
+
+std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces) {
+  std::vector<double> strengths = edge_growths(packing, forces);
+  std::size_t next = 2 * packing.contacts.size();
+  for (const ForceBound& bound : force_bounds(packing)) {
+    if (bound.side != ForceBound::Side::kEqual)
+      strengths[next++] += bound.side == ForceBound::Side::kLower ? -bound.value : bound.value;
   }
   return strengths;
 }
@@ -180,8 +197,20 @@ ContactProblem::ContactProblem(const Packing& packing) {
   }
   row_of_ = number.all();
   row_of_wall_ = number.of_walls();
+  const std::vector<ForceBound> bounds = force_bounds(packing);
+  first_bound_ = number.count();
+  const int row_count = first_bound_ + static_cast<int>(bounds.size());
+  std::vector<std::vector<int>> bounds_of(packing.contacts.size());
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    const int row = row_of_bound(static_cast<int>(k));
+    wrench.emplace_back(row, -mpq_class(bounds[k].value));
+    bounds_of[static_cast<std::size_t>(bounds[k].contact.value())].push_back(static_cast<int>(k));
+    if (bounds[k].side == ForceBound::Side::kEqual) continue;
+    const int sign = bounds[k].side == ForceBound::Side::kLower ? -1 : 1;
+    slacks_.push_back(integer_column({{row, mpq_class(sign)}}));
+  }
   for (const auto& [row, value] : wrench) load_scale_ = lcm(load_scale_, value.get_den());
-  load_.assign(static_cast<std::size_t>(number.count()), 0);
+  load_.assign(static_cast<std::size_t>(row_count), 0);
   for (const auto& [row, value] : wrench)
     load_[static_cast<std::size_t>(row)] = -value.get_num() * (load_scale_ / value.get_den());
 
@@ -193,7 +222,10 @@ ContactProblem::ContactProblem(const Packing& packing) {
       ends.arm_b = mpq_class(packing.lever_b(ContactId(i))) / mpq_class(divisor(contact.b.disk_id()));
     }
     const auto column = [&](const mpq_class& R, const mpq_class& T) {
-      return integer_column(force_entries(packing, number, contact, ends, R, T));
+      Entries entries = force_entries(packing, number, contact, ends, R, T);
+      for (const int k : bounds_of[static_cast<std::size_t>(i)])
+        entries.emplace_back(row_of_bound(k), bounds[static_cast<std::size_t>(k)].tangential ? T : R);
+      return integer_column(std::move(entries));
     };
     Contact exact;
     exact.mu = mpq_class(contact.mu);
@@ -214,6 +246,7 @@ void ContactProblem::find_independent_rows() {
     columns.push_back(&contact.normal);
     if (contact.mu > 0) columns.push_back(&contact.tangential);
   }
+  for (const IntegerColumn& slack : slacks_) columns.push_back(&slack);
   const PrimeField field(large_prime(0));
   independent_ = ModularLu(field, rows(), columns).pivot_rows();
   row_number_.assign(static_cast<std::size_t>(rows()), -1);
@@ -221,9 +254,10 @@ void ContactProblem::find_independent_rows() {
     row_number_[static_cast<std::size_t>(independent_[k])] = static_cast<int>(k);
 }
 
-bool ContactProblem::has_edge(int edge) const { return edge % 2 == 0 || mu(edge / 2) > 0; }
+bool ContactProblem::has_edge(int edge) const { return is_slack(edge) || edge % 2 == 0 || mu(edge / 2) > 0; }
 
 const IntegerColumn& ContactProblem::edge(int edge) const {
+  if (is_slack(edge)) return slacks_[static_cast<std::size_t>(edge - 2 * contacts())];
   const Contact& contact = contacts_[static_cast<std::size_t>(edge / 2)];
   if (contact.mu == 0) return contact.normal;
   return edge % 2 == 0 ? contact.plus : contact.minus;

@@ -15,6 +15,7 @@ namespace indet::exact {
 ///   for each free disk:  Σ χ (R n̂ + T t̂) + m g + load = 0,   Σ l T + load_z = 0,   t̂ = (n_y, −n_x), χ = ±1
 ///   for each loaded wall, where it is free:  −ΣR + load_n = 0,  −ΣT + load_t = 0
 ///   for each contact:  R ≥ 0,  |T| ≤ μR
+///   for each bound (force_bounds.h) of a force F:  F − s = lo,  F + s = hi,  F = value,  s ≥ 0
 ///
 /// n̂ is what is stored, also where its length is not exactly 1; products, sums and quotients are exact.
 /// Multiplying a row or an unknown by a number does not change this problem, so none of the scales of the
@@ -23,7 +24,7 @@ namespace indet::exact {
 ///
 /// Unknowns are strengths of cone edges, R = x₊ + x₋, T = μ (x₊ − x₋), x ≥ 0. Edge 2α is x₊ of contact α (R
 /// itself where μ = 0), edge 2α + 1 is x₋ (absent where μ = 0): the numbers of the half-planes in
-/// /extremal/active, each of which is "this edge has strength 0".
+/// /extremal/active, each of which is "this edge has strength 0". Edges 2M, 2M + 1, … are the slacks s.
 class ContactProblem {
  public:
   /// Precondition: find_defect(packing) is empty.
@@ -31,7 +32,8 @@ class ContactProblem {
 
   int rows() const { return static_cast<int>(load_.size()); }
   int contacts() const { return static_cast<int>(contacts_.size()); }
-  int edges() const { return 2 * contacts(); }
+  int edges() const { return 2 * contacts() + static_cast<int>(slacks_.size()); }
+  bool is_slack(int edge) const { return edge >= 2 * contacts(); }
   bool has_edge(int edge) const;
   /// The row of an equation of a disk (0: force x, 1: force y, 2: torque) or wall (0: along the normal,
   /// 1: along the tangent), −1 if it reads 0 = 0 or the wall is not free.
@@ -40,6 +42,8 @@ class ContactProblem {
     return body.is_wall() ? row_of_wall_[static_cast<std::size_t>(body.wall_id().value())][k]
                           : row_of_[static_cast<std::size_t>(body.disk_id().value())][k];
   }
+  /// The row of a bound, by its place in force_bounds().
+  int row_of_bound(int bound) const { return first_bound_ + bound; }
   /// What the torque row of a disk is divided by (its radius, or the power of two in its place), over its
   /// radius. A motion has this times rω in that row.
   double spin_scale(DiskId disk) const { return spin_scale_[static_cast<std::size_t>(disk.value())]; }
@@ -53,7 +57,7 @@ class ContactProblem {
   const std::vector<int>& row_number() const { return row_number_; }
 
   const mpq_class& mu(int contact) const { return contacts_[static_cast<std::size_t>(contact)].mu; }
-  /// Columns of R and T of one contact, and of an edge.
+  /// Columns of R and T of one contact, and of an edge. Precondition of mu(): no slack's.
   const IntegerColumn& normal(int contact) const {
     return contacts_[static_cast<std::size_t>(contact)].normal;
   }
@@ -81,6 +85,8 @@ class ContactProblem {
   std::vector<std::array<int, 2>> row_of_wall_;
   std::vector<double> spin_scale_;
   std::vector<Contact> contacts_;
+  int first_bound_ = 0;                ///< row
+  std::vector<IntegerColumn> slacks_;  ///< of edges 2M, 2M + 1, …
   std::vector<mpz_class> load_;
   mpz_class load_scale_ = 1;
   std::vector<int> independent_;
@@ -88,8 +94,11 @@ class ContactProblem {
 };
 
 /// Strengths of all edges, in double precision, at forces R and T of each contact in turn:
-/// (R ± T/μ)/2, and R on both edges where μ = 0. Precondition: two forces a contact.
+/// (R ± T/μ)/2, and R on both edges where μ = 0, then the slacks of bounds. Precondition: two forces a
+/// contact.
 std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces);
+/// The same along a direction of growth, in which bounds have the value 0.
+std::vector<double> edge_growths(const Packing& packing, std::span<const double> forces);
 
 /// value · 2^power.
 mpq_class scaled(const mpq_class& value, long power);

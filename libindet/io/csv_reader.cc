@@ -13,11 +13,13 @@
 #include <utility>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/io/csv_table.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/import_format.h"
 #include "libindet/packing/cancelling_loads.h"
+#include "libindet/packing/force_bounds.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
@@ -188,7 +190,8 @@ struct ContactRows {
 ContactRows read_contacts(const Table& table, const Packing& packing, const IdMap& disks, const IdMap& walls,
                           const Scene& scene) {
   table.require({"a", "b"});
-  table.allow_only({"a", "b", "nx", "ny", "mu", "R", "T", "gap", "lever_a", "lever_b"});
+  table.allow_only(
+      {"a", "b", "nx", "ny", "mu", "R", "T", "gap", "lever_a", "lever_b", "R_lo", "R_hi", "T_lo", "T_hi"});
   ContactRows result;
   std::map<std::pair<std::int32_t, std::int32_t>, int> rows;
   for (int row = 0; row < table.rows(); ++row) {
@@ -216,6 +219,10 @@ ContactRows read_contacts(const Table& table, const Packing& packing, const IdMa
     contact.T = table.number_or(row, "T", contact.mu == 0 && std::isfinite(contact.R) ? 0 : kNaN);
     contact.lever_a = table.number_or(row, "lever_a", kNaN);
     contact.lever_b = table.number_or(row, "lever_b", kNaN);
+    contact.R_lo = table.number_or(row, "R_lo", -kInfinity);
+    contact.R_hi = table.number_or(row, "R_hi", kInfinity);
+    contact.T_lo = table.number_or(row, "T_lo", -kInfinity);
+    contact.T_hi = table.number_or(row, "T_hi", kInfinity);
     if (!packing.has_equations(contact.a) && !packing.has_equations(contact.b)) continue;
     result.contacts.push_back(contact);
     result.rows.push_back(row);
@@ -277,6 +284,24 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
     throw InputError(fmt::format("{}: {}", (folder / "walls.csv").string(), error.what()));
   }
   warn_of_large_gaps(imported);
+  int outside = 0;
+  double worst = 0;
+  for (const ForceBound& bound : force_bounds(packing)) {
+    const double beyond = -slack(bound, packing.simulated_forces().value());  // NaN where it is unknown
+    outside += beyond > 0 ? 1 : 0;
+    worst = std::fmax(worst, beyond);
+  }
+  if (outside > 0) {
+    imported.warnings.push_back(fmt::format("{} outside of {} bounds, the worst by {:.2e} mg",
+                                            counted(outside, "known force is", "known forces are"),
+                                            outside == 1 ? "its" : "their", worst / packing.force_unit()));
+  }
+  const auto pulls = std::count_if(packing.contacts.begin(), packing.contacts.end(),
+                                   [](const Contact& c) { return c.R_lo < 0 && c.R_lo > -kInfinity; });
+  if (pulls > 0) {
+    imported.warnings.push_back(
+        fmt::format("R_lo is negative at {}; contacts only push, so it means 0", counted(pulls, "contact")));
+  }
   return imported;
 }
 

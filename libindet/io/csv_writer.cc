@@ -23,6 +23,7 @@ constexpr std::string_view kWallsBegin = "id,px,py,nx,ny,name";
 constexpr std::string_view kLoadColumns = ",load_n,load_t";
 constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap";
 constexpr std::string_view kLeverColumns = ",lever_a,lever_b";
+constexpr std::string_view kBoundColumns = ",R_lo,R_hi,T_lo,T_hi";
 constexpr std::string_view kSceneBegin = "gravity = [";
 constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu";
 
@@ -34,6 +35,32 @@ std::string quoted(std::string text) {
   std::replace(text.begin(), text.end(), '"', '\'');
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.empty() ? text : "\"" + text + "\"";
+}
+
+/// Empty for a bound that there is not.
+std::string bound_field(double value) { return std::isinf(value) ? "" : field(value); }
+
+/// What follows the other columns of contacts where the packing has it: their names, and the fields of one.
+std::string rare_columns(const Packing& packing) {
+  std::string text;
+  if (packing.has_levers()) text += kLeverColumns;
+  if (packing.has_bounds()) text += kBoundColumns;
+  return text;
+}
+std::string rare_fields(const Packing& packing, const Contact& c) {
+  std::string text;
+  if (packing.has_levers()) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+  if (packing.has_bounds()) {
+    for (const double bound : {c.R_lo, c.R_hi, c.T_lo, c.T_hi}) text += "," + bound_field(bound);
+  }
+  return text;
+}
+/// True if the rest of a header is rare columns and then `end`.
+bool ends_header(std::string_view rest, std::string_view end) {
+  for (const std::string_view columns : {kLeverColumns, kBoundColumns}) {
+    if (rest.starts_with(columns)) rest.remove_prefix(columns.size());
+  }
+  return rest.starts_with(end);
 }
 
 /// Adds the header and the columns that follow it.
@@ -75,14 +102,12 @@ std::string walls_text(const Packing& packing, const FileIds& ids) {
 std::string contacts_text(const Packing& packing, const FileIds& ids,
                           const Eigen::Ref<const Eigen::VectorXd>& forces) {
   std::string text;
-  const bool has_levers = packing.has_levers();
-  begin_table(text, kContactsBegin, has_levers, kLeverColumns);
+  text += fmt::format("{}{}\n", kContactsBegin, rare_columns(packing));
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& c = packing[ContactId(i)];
     text += fmt::format("{},{},{},{},{},{},{},{}", ids.of(c.a), ids.of(c.b), c.normal.x(), c.normal.y(), c.mu,
                         field(forces[2 * i]), field(forces[2 * i + 1]), c.gap);
-    if (has_levers) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
-    text += '\n';
+    text += rare_fields(packing, c) + '\n';
   }
   return text;
 }
@@ -116,10 +141,8 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
   const double mg = packing.force_unit();
   const std::vector<RangeColumn> columns =
       ranges != nullptr ? range_columns(*ranges, mg) : std::vector<RangeColumn>{};
-  const bool has_levers = packing.has_levers();
   std::string text(kTableBegin);
-  if (has_levers) text += kLeverColumns;
-  text += ",R_mg,T_mg";
+  text += rare_columns(packing) + ",R_mg,T_mg";
   for (const RangeColumn& column : columns) {
     text += "," + column.name;
     if (column.end) text += fmt::format(",{}_outcome", to_string(*column.end));
@@ -130,7 +153,7 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
     const Vector2 point = packing.contact_point(c);
     text += fmt::format("{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
                         c.normal.x(), c.normal.y(), c.gap, c.mu);
-    if (has_levers) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+    text += rare_fields(packing, c);
     text += fmt::format(",{},{}", field(forces[2 * i] / mg), field(forces[2 * i + 1] / mg));
     for (const RangeColumn& column : columns) {
       text += "," + field(column.values[i]);
@@ -148,9 +171,8 @@ bool is_scene_table(std::string_view text) {
     if (!more.empty() && rest.starts_with(more)) rest.remove_prefix(more.size());
     return rest.starts_with('\n');
   };
-  if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, kLoadColumns) ||
-      begins(kContactsBegin, kLeverColumns))
-    return true;
+  if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, kLoadColumns)) return true;
+  if (text.starts_with(kContactsBegin)) return ends_header(text.substr(kContactsBegin.size()), "\n");
   // One line, or two; whoever adds to them has a scene of their own.
   if (!text.starts_with(kSceneBegin)) return false;
   const std::string_view rest = text.substr(text.find('\n') + 1);
@@ -158,9 +180,7 @@ bool is_scene_table(std::string_view text) {
 }
 
 bool is_contact_table(std::string_view text) {
-  if (!text.starts_with(kTableBegin)) return false;
-  const std::string_view rest = text.substr(kTableBegin.size());
-  return rest.starts_with(",R_mg,") || rest.starts_with(std::string(kLeverColumns) + ",R_mg,");
+  return text.starts_with(kTableBegin) && ends_header(text.substr(kTableBegin.size()), ",R_mg,");
 }
 
 }  // namespace indet

@@ -145,6 +145,13 @@ void write_levers(Hdf5File& file, const std::vector<Contact>& contacts) {
              {"length", "arm of the torque of T on b, NaN: the radius, or a wall"});
 }
 
+void write_bounds(Hdf5File& file, const std::vector<Contact>& contacts) {
+  file.write("/contacts/bounds",
+             rows(contacts, [](const Contact& c) { return Eigen::Vector4d(c.R_lo, c.R_hi, c.T_lo, c.T_hi); }),
+             {contacts.size(), 4},
+             {"force", "R_lo, R_hi, T_lo, T_hi that the scene allows, inf where it does not"});
+}
+
 std::vector<Disk> read_disks(const Hdf5File& file) {
   const std::string group = "/particles/disks";
   const std::size_t n = file.shape(group + "/id", 1)[0];
@@ -209,6 +216,8 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
   };
   const auto lever_a = lever("/contacts/lever_a");
   const auto lever_b = lever("/contacts/lever_b");
+  const auto bounds =
+      file.has("/contacts/bounds") ? file.read_doubles("/contacts/bounds", {n, 4}) : std::vector<double>();
   std::vector<Contact> contacts(n);
   for (std::size_t i = 0; i < n; ++i) {
     contacts[i] = Contact{.a = DiskId(a[i]),
@@ -220,6 +229,11 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
                           .T = t[i],
                           .lever_a = lever_a[i],
                           .lever_b = lever_b[i]};
+    if (bounds.empty()) continue;
+    contacts[i].R_lo = bounds[4 * i];
+    contacts[i].R_hi = bounds[4 * i + 1];
+    contacts[i].T_lo = bounds[4 * i + 2];
+    contacts[i].T_hi = bounds[4 * i + 3];
   }
   return contacts;
 }
@@ -228,7 +242,7 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
 
 SchemaVersion schema_of(const Packing& packing) {
   const bool fixed = std::any_of(packing.disks.begin(), packing.disks.end(), is_fixed);
-  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls();
+  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls() || packing.has_bounds();
   return is_new ? SchemaVersion{2, 0} : SchemaVersion{};
 }
 
@@ -238,6 +252,7 @@ void write_packing_part(Hdf5File& file, const Packing& packing) {
   write_walls(file, packing.walls);
   write_contacts(file, packing.contacts);
   if (packing.has_levers()) write_levers(file, packing.contacts);
+  if (packing.has_bounds()) write_bounds(file, packing.contacts);
 }
 
 Packing read_packing(const Hdf5File& file) {

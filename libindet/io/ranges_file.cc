@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/io/packing_file.h"
 #include "libindet/io/reactions_file.h"
 #include "libindet/io/vtkhdf.h"
 #include "libindet/range/result_fields.h"
@@ -229,8 +230,16 @@ void check_pointers(const Hdf5File& file, const ForceRanges& ranges) {
     if (row < -1 || row >= count)
       fail(file, object, fmt::format("points to {} {}, but there are {}", what, row, count));
   };
+  Eigen::Index half_planes = 2 * ranges.value.rows();
+  if (file.has("/contacts/bounds")) {
+    const std::vector<ForceBound> bounds = force_bounds(read_packing(file));
+    if (ranges.bound_multipliers.size() != 0 &&
+        ranges.bound_multipliers.size() != static_cast<Eigen::Index>(bounds.size()))
+      fail(file, "/equilibrium/bound_multipliers", fmt::format("has not {} entries", bounds.size()));
+    for (const ForceBound& bound : bounds) half_planes += bound.side == ForceBound::Side::kEqual ? 0 : 1;
+  }
   for (const std::int32_t plane : ranges.active.reshaped()) {
-    if (plane < -1 || plane >= 2 * ranges.value.rows())
+    if (plane < -1 || plane >= half_planes)
       fail(file, "/extremal/active", fmt::format("there is no half-plane {}", plane));
   }
   check("/extremal@largest_norm", "state", ranges.largest_norm, ranges.states.rows());

@@ -79,6 +79,10 @@ bool Packing::has_levers() const {
                      [](const Contact& c) { return !std::isnan(c.lever_a) || !std::isnan(c.lever_b); });
 }
 
+bool Packing::has_bounds() const {
+  return std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.is_bounded(); });
+}
+
 Vector2 Packing::contact_point(const Contact& contact) const {
   return (*this)[contact.a].position - lever_a(contact) * contact.normal;
 }

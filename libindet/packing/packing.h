@@ -90,7 +90,17 @@ struct Contact {
   /// Arm of the torque of T on a and on b; NaN: the radius. A wall has none. Packing::lever_a, lever_b.
   double lever_a = std::numeric_limits<double>::quiet_NaN();
   double lever_b = std::numeric_limits<double>::quiet_NaN();
+  /// What the scene allows beside friction: R_lo ≤ R ≤ R_hi, T_lo ≤ T ≤ T_hi (force_bounds.h). R_lo < 0 is
+  /// the same as 0: there is no cohesion.
+  double R_lo = -std::numeric_limits<double>::infinity();
+  double R_hi = std::numeric_limits<double>::infinity();
+  double T_lo = -std::numeric_limits<double>::infinity();
+  double T_hi = std::numeric_limits<double>::infinity();
 
+  bool is_bounded() const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return R_lo > -kNone || R_hi < kNone || T_lo > -kNone || T_hi < kNone;
+  }
   /// t̂ = n̂ × ẑ = (n_y, −n_x) [10].
   Vector2 tangent() const { return {normal.y(), -normal.x()}; }
 };
@@ -155,6 +165,7 @@ struct Packing {
   double lever_a(const Contact& contact) const;  ///< Of one of this packing's disks.
   double lever_b(const Contact& contact) const;
   bool has_levers() const;  ///< Some contact has a lever of its own.
+  bool has_bounds() const;  ///< Some contact has a force that the scene bounds.
   /// Where the force of a contact acts: x_a − l_a n̂.
   Vector2 contact_point(const Contact& contact) const;
 

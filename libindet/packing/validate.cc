@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -149,6 +150,16 @@ Reason gap_defect(const Packing& packing, const Contact& contact) {
                      a.id, other, -gap, 2 * radius);
 }
 
+/// An interval of a force that holds no number, or does not read as one.
+Reason bounds_defect(const char* force, double lo, double hi, double least) {
+  if (std::isnan(lo) || std::isnan(hi)) return fmt::format("{}_lo and {}_hi must be numbers", force, force);
+  if (lo > hi) return fmt::format("{}_lo is {}, more than {}_hi, which is {}", force, lo, force, hi);
+  if (hi < least) return fmt::format("{}_hi is {}, but contacts only push: {} ≥ 0", force, hi, force);
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (lo == kNone || hi == -kNone) return fmt::format("{}_lo and {}_hi leave no finite force", force, force);
+  return {};
+}
+
 Reason contact_defect(const Packing& packing, const Contact& contact) {
   return first_of(
       [&] { return index_defect(packing, contact); }, [&] { return negative("mu", contact.mu); },
@@ -159,6 +170,10 @@ Reason contact_defect(const Packing& packing, const Contact& contact) {
       [&]() -> Reason {  // NaN means "unknown"
         if (!std::isinf(contact.R) && !std::isinf(contact.T)) return {};
         return "R and T must be finite or unknown";
+      },
+      [&] { return bounds_defect("R", contact.R_lo, contact.R_hi, 0); },
+      [&] {
+        return bounds_defect("T", contact.T_lo, contact.T_hi, -std::numeric_limits<double>::infinity());
       });
 }
 

@@ -20,9 +20,10 @@ struct Defect {
 /// Looks for: NaN or inf (a load of a wall may be NaN: it is not free then); radius, mass or inertia ≤ 0 (of
 /// a fixed disk, mass or inertia < 0); negative μ; an index out of range; a contact of a disk with itself or
 /// given twice, or between two bodies without equations (readers leave these out); a lever that is not in (0,
-/// 2r], or of a wall; a normal that is not of unit length or disagrees with the positions; bodies of a
-/// contact that cannot touch; neither gravity nor a unit of force. (A contact of a wall with a wall cannot be
-/// expressed in a Packing; importers report it.) Returns nothing if the packing can be used.
+/// 2r], or of a wall; bounds of a force that leave none; a normal that is not of unit length or disagrees
+/// with the positions; bodies of a contact that cannot touch; neither gravity nor a unit of force. (A contact
+/// of a wall with a wall cannot be expressed in a Packing; importers report it.) Returns nothing if the
+/// packing can be used.
 std::optional<Defect> find_defect(const Packing& packing);
 
 /// Throws InputError with the defect, prefixed by `source` (a file name), if there is one.

@@ -16,15 +16,29 @@
 namespace indet {
 namespace {
 
+/// What a multiplier of one row says about bounds written as F − s = lo, F + s = hi: the row s + s′ = hi − lo
+/// is the difference of both.
+template <class Add>
+void add_multiplier(const EquilibriumProblem& problem, int bound, double value, Add add) {
+  add(bound, value);
+  if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower) add(bound - 1, -value);
+}
+
 /// Spreads a motion of the equations' rows over disks and walls; largest entry 1.
 void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
   polytope.motion.setZero(problem.disks, 3);
   const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),
                                       [](const EquilibriumRow& row) { return row.body.is_wall(); });
   polytope.wall_motion.setZero(walls_move ? problem.walls : 0, 2);
+  polytope.bound_multipliers.setZero(static_cast<Eigen::Index>(problem.bounds.size()));
   const double largest = rows.lpNorm<Eigen::Infinity>();
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
+    if (row.bound >= 0) {
+      add_multiplier(problem, row.bound, rows[i] / largest,
+                     [&](int bound, double value) { polytope.bound_multipliers[bound] += value; });
+      continue;
+    }
     // Entries at the level of rounding say nothing about which body moves.
     const double velocity = std::abs(rows[i] / largest) > tolerance::kMotionEntry ? rows[i] / largest : 0;
     if (row.body.is_wall()) {
@@ -61,6 +75,12 @@ std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const Equi
   const double largest = motion.lpNorm<Eigen::Infinity>();
   for (Eigen::Index i = 0; i < motion.size(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
+    if (row.bound >= 0) {
+      add_multiplier(problem, row.bound, motion[i] / largest, [&](int bound, double value) {
+        result[static_cast<std::size_t>(exact.row_of_bound(bound))] += value;
+      });
+      continue;
+    }
     const int number = exact.row(row.body, row.component);
     if (number < 0) continue;
     const double scale = row.component == 2 ? exact.spin_scale(row.body.disk_id()) : 1;
@@ -68,9 +88,6 @@ std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const Equi
   }
   return result;
 }
-
-/// The number of an edge in the exact problem.
-int exact_number(const Edge& edge) { return 2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0); }
 
 /// A full-dimensional set with a point in its interior.
 struct InteriorSet {
@@ -121,19 +138,24 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
       return {};
     }
     std::vector<ContactMode> modes = problem.modes;
+    std::vector<int> closed_bounds;
     exact::Closing closing{{}, on_exact_rows(exact, problem, motion)};
     const double significant = interior.multipliers.maxCoeff() * tolerance::kClosingMultiplier;
     for (int k = 0; k < view.inequalities(); ++k) {
       if (interior.multipliers[k] <= significant) continue;
       const Edge& edge = problem.edges[static_cast<std::size_t>(k)];
+      closing.edges.push_back(problem.half_plane(edge));
+      if (edge.is_slack()) {
+        closed_bounds.push_back(edge.bound);
+        continue;
+      }
       ContactMode& mode = modes[static_cast<std::size_t>(edge.contact.value())];
       mode = close_edge(mode, edge.sign);
-      closing.edges.push_back(exact_number(edge));
     }
     if (closing.edges.empty())
       throw LibraryError("rounding decides whether forces balance, and no decision could be found");
     closings.push_back(std::move(closing));
-    problem = restrict_modes(problem, modes);
+    problem = restrict_modes(problem, modes, closed_bounds);
     polytope.null_space = std::make_shared<NullSpace>(compute_null_space(problem.matrix, problem.load()));
   }
 }

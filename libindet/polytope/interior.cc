@@ -15,7 +15,8 @@ namespace {
 /// that are much lighter than the mean are still seen.
 constexpr double kMagnification = 1e4;
 
-/// Maximises by the dual formulation, and where that fails by the explicit one.
+}  // namespace
+
 LpAnswer maximise_robustly(const SlopeView& view, const Objective& objective, const Basis& start,
                            const LpOptions& options) {
   LpAnswer answer = LpSolver(view, Formulation::kDual, options).maximise(objective, start);
@@ -25,8 +26,6 @@ LpAnswer maximise_robustly(const SlopeView& view, const Objective& objective, co
   answer.pivots += pivots;
   return answer;
 }
-
-}  // namespace
 
 InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& options) {
   const int d = view.dim();

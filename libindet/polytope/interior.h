@@ -9,6 +9,10 @@
 
 namespace indet {
 
+/// Maximises by the dual formulation, and where that fails by the explicit one.
+LpAnswer maximise_robustly(const SlopeView& view, const Objective& objective, const Basis& start,
+                           const LpOptions& options);
+
 /// The result of "maximise t ≤ 1 with every x ≥ t" over a FeasibleSet.
 struct InteriorPoint {
   double slack = 0;  ///< t: > 0 strictly interior point, < 0 the set is empty, 0: see `multipliers`

@@ -40,7 +40,7 @@ bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, con
   if (rays.rows() == 0) return true;
   for (Eigen::Index q = 0; q < rays.rows(); ++q) {
     const std::span<const double> ray(&rays(q, 0), static_cast<std::size_t>(rays.cols()));
-    if (!exact::proves_ray(exact, exact::edge_strengths(packing, ray), tolerance::kExactZero)) return false;
+    if (!exact::proves_ray(exact, exact::edge_growths(packing, ray), tolerance::kExactZero)) return false;
   }
   return true;
 }
@@ -57,7 +57,10 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   int largest = 0;
   for (const PolytopeBlock& block : polytope.blocks) largest = std::max(largest, block.view.dim());
   SearchOptions search;
-  search.formulation = options.formulation.value_or(choose_formulation(largest));
+  // Each bound of a force is a row more of the edges' formulation, but not of the dual one.
+  const bool has_bounds = !polytope.problem.bounds.empty();
+  search.formulation =
+      options.formulation.value_or(has_bounds ? Formulation::kDual : choose_formulation(largest));
   search.method = options.method;
   search.paper = options.paper;
   search.lp = options.lp;

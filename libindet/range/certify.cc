@@ -24,7 +24,9 @@ StateResiduals residuals_of(const Packing& packing, double unit, const Rows<doub
     const double balance = largest_imbalance(packing, forces);
     const double scale =
         std::max(least, forces.value().size() > 0 ? forces.value().lpNorm<Eigen::Infinity>() / unit : 0.0);
-    result.primal[k] = std::max(balance, count_coulomb(packing, forces, 0).worst_violation) / scale;
+    result.primal[k] = std::max({balance, count_coulomb(packing, forces, 0).worst_violation,
+                                 worst_bound_violation(packing, forces)}) /
+                       scale;
     result.balance = std::max(result.balance, balance);
   }
   return result;

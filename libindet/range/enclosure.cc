@@ -69,7 +69,7 @@ class Encloser {
       const Edge& edge = problem_.edge(k);
       const double on_R = on_forces[2 * edge.contact.value()];
       const double on_T = on_forces[2 * edge.contact.value() + 1];
-      if (on_R == 0 && on_T == 0) continue;
+      if (edge.is_slack() || (on_R == 0 && on_T == 0)) continue;
       f.on_edges.emplace_back(k, on_R * edge.R + on_T * edge.T);
       f.edge_sizes.push_back(std::abs(on_R * edge.R) + std::abs(on_T * edge.T));
       if (problem_.is_stick(edge)) {  // its unknowns are R, then T

@@ -10,6 +10,7 @@ namespace {
 
 /// The column of R is n̂, that of T is t̂ and l/r, of which l = r makes 1; other quotients are rounded.
 bool has_stored_entries(const EquilibriumProblem& problem, const Edge& edge) {
+  if (edge.is_slack()) return true;  // 1
   if (!problem.is_stick(edge)) return false;
   const ContactEnds& ends = problem.contacts[static_cast<std::size_t>(edge.contact.value())];
   return edge.sign > 0 || (ends.arm_a == 1 && ends.arm_b == 1);

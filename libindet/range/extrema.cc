@@ -34,6 +34,7 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
   std::map<int, std::pair<Component, Component>> by_contact;
   for (std::size_t k = 0; k < block.edges.size(); ++k) {
     const Edge& edge = polytope.problem.edges[static_cast<std::size_t>(block.edges[k])];
+    if (edge.is_slack()) continue;
     auto& [normal, tangential] = by_contact[edge.contact.value()];
     normal.on_edges.emplace_back(static_cast<int>(k), edge.R);
     if (edge.T != 0) tangential.on_edges.emplace_back(static_cast<int>(k), edge.T);

@@ -12,8 +12,8 @@ namespace indet {
 /// M contacts, N disks. Fields start at impossible values.
 struct ProblemSummary {
   PolytopeStatus status = PolytopeStatus::kEmpty;
-  int unknowns = -1;   ///< Columns of c that the scene needs: 2 a contact, 1 where μ = 0.
-  int equations = -1;  ///< Rows of c that the scene needs.
+  int unknowns = -1;   ///< Columns of c that the scene needs: 2 a contact, 1 where μ = 0; slacks of bounds.
+  int equations = -1;  ///< Rows of c that the scene needs, and bounds of forces.
   int rank = -1;       ///< rank c.
   int nullity = -1;    ///< d = dim ker c ≥ 2M − 3N [8].
   int dim = -1;        ///< dim F; −1 when F is empty.
@@ -28,6 +28,8 @@ struct ProblemSummary {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
   /// [W, 2] the same of walls, along normal and tangent, where some wall is loaded.
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_motion;
+  /// When F is empty: multipliers of the scene's bounds of forces (ForcePolytope::bound_multipliers).
+  Eigen::VectorXd bound_multipliers;
 };
 
 ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope);

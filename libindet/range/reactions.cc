@@ -141,7 +141,8 @@ class ReactionFinder {
     const double scale =
         std::max(packing_.internal_force_unit(), forces.value().lpNorm<Eigen::Infinity>()) / unit;
     const double primal =
-        std::max(largest_imbalance(packing_, forces), count_coulomb(packing_, forces, 0).worst_violation) /
+        std::max({largest_imbalance(packing_, forces), count_coulomb(packing_, forces, 0).worst_violation,
+                  worst_bound_violation(packing_, forces)}) /
         scale;
     if (primal > tolerance::kPrimalResidual || dual_residual > tolerance::kDualResidual)
       r.outcome(row, end) = Outcome::kImprecise;

@@ -26,6 +26,8 @@ const char* to_string(Extent extent) {
       return "Q";
     case Extent::kActive:
       return "d";
+    case Extent::kBounds:
+      return "B";
   }
   return "?";
 }

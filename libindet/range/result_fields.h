@@ -20,9 +20,10 @@ enum class Extent : std::uint8_t {
   kForces,      ///< 2M: R_1, T_1, …, R_M, T_M
   kStates,      ///< K
   kRays,        ///< Q
-  kActive       ///< d
+  kActive,      ///< d
+  kBounds       ///< B: of force_bounds()
 };
-const char* to_string(Extent extent);  ///< "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d".
+const char* to_string(Extent extent);  ///< "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "B".
 
 /// When a field has something to say; else files leave it out.
 enum class Presence : std::uint8_t {
@@ -100,6 +101,10 @@ void visit_problem(Part& r, Visit& visit) {
               "virtual velocity along normal and tangent with which loaded walls move then",
               FieldSource::kProof, Extent::kWalls, Extent::kDirections, Presence::kWhereRows},
         r.wall_motion);
+  visit(Field{"/equilibrium", "bound_multipliers", "1",
+              "multipliers with which bounds of forces take part in the proof then", FieldSource::kProof,
+              Extent::kBounds, Extent::kOne, Presence::kWhereRows},
+        r.bound_multipliers);
 }
 
 template <class Part, class Visit>

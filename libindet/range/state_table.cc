@@ -65,7 +65,7 @@ void StateTable::append(const Eigen::VectorXd& x, int block, const Basis& basis)
     for (const int local : b == block ? basis : other.lightest) {
       const Edge& edge =
           polytope_.problem.edges[static_cast<std::size_t>(other.edges[static_cast<std::size_t>(local)])];
-      active.push_back(2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0));
+      active.push_back(polytope_.problem.half_plane(edge));
     }
   }
   std::sort(active.begin(), active.end());

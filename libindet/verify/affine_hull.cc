@@ -37,10 +37,10 @@ class Groups {
 
 std::optional<AffineHull> AffineHull::at(const RebuiltProblem& problem, const Eigen::VectorXd& interior) {
   if (!interior.allFinite()) return std::nullopt;
-  const Eigen::Index half_planes = interior.size();
+  const Eigen::Index half_planes = problem.half_planes();
   const Eigen::Index d = problem.nullity();
   const double scale =
-      half_planes > 0 ? std::max(problem.internal_unit(), interior.lpNorm<Eigen::Infinity>()) : 1.0;
+      interior.size() > 0 ? std::max(problem.internal_unit(), interior.lpNorm<Eigen::Infinity>()) : 1.0;
   Eigen::MatrixXd normals(half_planes, d);
   std::vector<Eigen::Index> tight;
   for (Eigen::Index h = 0; h < half_planes; ++h) {
@@ -85,7 +85,7 @@ std::optional<int> AffineHull::blocks() const {
       moves[static_cast<std::size_t>(h)] = true;
     }
   }
-  for (Eigen::Index h = 0; h + 1 < slopes_.rows(); h += 2) {
+  for (Eigen::Index h = 0; h + 1 < directions_.rows(); h += 2) {  // both edges of a contact
     if (moves[static_cast<std::size_t>(h)] && moves[static_cast<std::size_t>(h) + 1]) groups.join(h, h + 1);
   }
   int count = 0;

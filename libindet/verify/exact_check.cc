@@ -117,7 +117,16 @@ class Check {
     // Contacts that the motion opens cannot carry force in a certificate; those that it leaves alone come
     // first.
     std::vector<double> preference = no_preference();
-    for (int e = 0; e < problem_.edges() && ranges_.motion.rows() == packing_.disk_count(); ++e) {
+    const bool has_motion = ranges_.motion.rows() == packing_.disk_count();
+    const std::vector<ForceBound> bounds = force_bounds(packing_);
+    const bool has_multipliers = ranges_.bound_multipliers.size() == static_cast<Eigen::Index>(bounds.size());
+    const std::vector<int> planes = half_planes_of(bounds, packing_.contact_count());
+    for (std::size_t k = 0; has_multipliers && k < bounds.size(); ++k) {
+      if (planes[k] >= 0)
+        preference[static_cast<std::size_t>(planes[k])] =
+            -std::abs(ranges_.bound_multipliers[static_cast<Eigen::Index>(k)]);
+    }
+    for (int e = 0; has_motion && e < 2 * packing_.contact_count(); ++e) {
       const Contact& contact = packing_[ContactId(e / 2)];
       const double mu = e % 2 == 0 ? contact.mu : -contact.mu;
       const Vector2 force = contact.normal + mu * contact.tangent();
@@ -131,6 +140,10 @@ class Check {
       } else if (ranges_.wall_motion.rows() == packing_.wall_count()) {
         const auto v = ranges_.wall_motion.row(contact.b.wall_id().value());
         total -= v[0] + mu * v[1];
+      }
+      for (std::size_t k = 0; has_multipliers && k < bounds.size(); ++k) {
+        if (bounds[k].contact.value() == e / 2)
+          total += ranges_.bound_multipliers[static_cast<Eigen::Index>(k)] * (bounds[k].tangential ? mu : 1);
       }
       preference[static_cast<std::size_t>(e)] = -std::abs(total);
     }
@@ -173,7 +186,8 @@ class Check {
     if (task.state >= 0) {
       start = basis_of_state(task.state);
     } else if (task.ray >= 0) {
-      start = basis_by(preference_of(ranges_.rays.row(task.ray).transpose(), {}));
+      const Eigen::VectorXd ray = ranges_.rays.row(task.ray).transpose();
+      start = basis_by(exact::edge_growths(packing_, {ray.data(), static_cast<std::size_t>(ray.size())}));
     } else {
       start = basis_by(no_preference());
     }

@@ -107,7 +107,7 @@ class ReactionCheck {
     compare_.require(violation <= tolerance::kPrimalResidual,
                      "{}: its state violates equilibrium or contact conditions by {}", place, violation);
     std::vector<int> tight;
-    for (int h = 0; h < 2 * packing_.contact_count(); ++h) {
+    for (int h = 0; h < problem_.half_planes(); ++h) {
       if (problem_.slack(h, forces) <= tolerance::kTightHalfPlane * scale) tight.push_back(h);
     }
     const double largest = sum.coefficients.cwiseAbs().maxCoeff();

@@ -54,12 +54,17 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
     }
     if (contact.mu == 0) frictionless.push_back(2 * c + 1);
   }
-  Eigen::MatrixXd constraints(matrix_.rows() + static_cast<Eigen::Index>(frictionless.size()),
-                              matrix_.cols());
-  constraints << matrix_,
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(frictionless.size()), matrix_.cols());
-  for (std::size_t i = 0; i < frictionless.size(); ++i)
-    constraints(matrix_.rows() + static_cast<Eigen::Index>(i), frictionless[i]) = 1;
+  bounds_ = force_bounds(packing);
+  std::vector<int> held = frictionless;
+  for (const ForceBound& bound : bounds_) {
+    const bool is_equal = bound.side == ForceBound::Side::kEqual;
+    (is_equal ? equalities_ : inequalities_).push_back(bound);
+    if (is_equal) held.push_back(bound.component());
+  }
+  Eigen::MatrixXd constraints(matrix_.rows() + static_cast<Eigen::Index>(held.size()), matrix_.cols());
+  constraints << matrix_, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(held.size()), matrix_.cols());
+  for (std::size_t i = 0; i < held.size(); ++i)
+    constraints(matrix_.rows() + static_cast<Eigen::Index>(i), held[i]) = 1;
   kernel_ = kernel_basis(constraints, tolerance::kRebuiltRank);
 }
 
@@ -73,6 +78,9 @@ double RebuiltProblem::imbalance(const Eigen::VectorXd& forces) const {
 }
 
 double RebuiltProblem::slack(int half_plane, const Eigen::VectorXd& forces) const {
+  const int first = 2 * packing_.contact_count();
+  if (half_plane >= first)
+    return indet::slack(inequalities_[static_cast<std::size_t>(half_plane - first)], forces, force_unit_);
   const int contact = half_plane / 2;
   const double mu = packing_[ContactId(contact)].mu;
   const double R = forces[2 * contact];
@@ -83,7 +91,9 @@ double RebuiltProblem::slack(int half_plane, const Eigen::VectorXd& forces) cons
 
 double RebuiltProblem::violation(const Eigen::VectorXd& forces) const {
   double worst = 0;
-  for (int h = 0; h < 2 * packing_.contact_count(); ++h) worst = std::max(worst, -slack(h, forces));
+  for (int h = 0; h < half_planes(); ++h) worst = std::max(worst, -slack(h, forces));
+  for (const ForceBound& bound : equalities_)
+    worst = std::max(worst, -indet::slack(bound, forces, force_unit_));
   return worst;
 }
 
@@ -102,6 +112,12 @@ RebuiltProblem::SlidingCount RebuiltProblem::count_sliding(const Eigen::VectorXd
 }
 
 Eigen::VectorXd RebuiltProblem::normal_of(int half_plane) const {
+  const int first = 2 * packing_.contact_count();
+  if (half_plane >= first) {
+    const ForceBound& bound = inequalities_[static_cast<std::size_t>(half_plane - first)];
+    const double sign = bound.side == ForceBound::Side::kLower ? 1 : -1;
+    return sign * kernel_.row(bound.component()).transpose();
+  }
   const int contact = half_plane / 2;
   const double mu = packing_[ContactId(contact)].mu;
   if (mu == 0) return kernel_.row(2 * contact).transpose();
@@ -142,9 +158,27 @@ Eigen::VectorXd RebuiltProblem::flat_motion(const Eigen::MatrixXd& disks,
 
 double RebuiltProblem::load_power(const Eigen::VectorXd& motion) const { return wrench_.dot(motion); }
 
+double RebuiltProblem::bounds_power(const Eigen::VectorXd& multipliers) const {
+  double power = 0;
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    power -= multipliers[static_cast<Eigen::Index>(k)] * bounds_[k].value / force_unit_;
+  return power;
+}
+
 double RebuiltProblem::smallest_contact_power(const Eigen::VectorXd& motion) const {
-  const Eigen::VectorXd relative = matrix_.transpose() * motion;
+  return smallest_power(motion, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bounds_.size())));
+}
+
+double RebuiltProblem::smallest_power(const Eigen::VectorXd& motion,
+                                      const Eigen::VectorXd& multipliers) const {
+  Eigen::VectorXd relative = matrix_.transpose() * motion;
   double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < bounds_.size(); ++k) {
+    const double multiplier = multipliers[static_cast<Eigen::Index>(k)];
+    relative[bounds_[k].component()] += multiplier;
+    if (bounds_[k].side == ForceBound::Side::kEqual) continue;
+    smallest = std::min(smallest, bounds_[k].side == ForceBound::Side::kLower ? -multiplier : multiplier);
+  }
   for (int c = 0; c < packing_.contact_count(); ++c) {
     const double mu = packing_[ContactId(c)].mu;
     const double tangential = mu * std::abs(relative[2 * c + 1]);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libindet/packing/force_bounds.h"
 #include "libindet/packing/packing.h"
 
 namespace indet {
@@ -28,6 +29,8 @@ class RebuiltProblem {
   /// Slack of half-plane h: 2α: μR + T (R where μ = 0), 2α + 1: μR − T (R where μ = 0), divided by √(1 + μ²),
   /// as −min(0, ·) for all: largest violation.
   double violation(const Eigen::VectorXd& forces) const;
+  /// Half-planes 2M, 2M + 1, … are the bounds of the scene (force_bounds.h) that are inequalities.
+  int half_planes() const { return 2 * packing_.contact_count() + static_cast<int>(inequalities_.size()); }
   double slack(int half_plane, const Eigen::VectorXd& forces) const;
   /// The inward normal of a half-plane within ker c: the slack along kernel() · z changes by its product
   /// with z.
@@ -53,6 +56,10 @@ class RebuiltProblem {
   Eigen::VectorXd flat_motion(const Eigen::MatrixXd& disks, const Eigen::MatrixXd& walls) const;
   double load_power(const Eigen::VectorXd& motion) const;
   double smallest_contact_power(const Eigen::VectorXd& motion) const;
+  /// The same where the scene bounds forces, with a multiplier for each of force_bounds() (ForcePolytope::
+  /// bound_multipliers): what bounds add to the power, and the smallest power with that of the slacks.
+  double bounds_power(const Eigen::VectorXd& multipliers) const;
+  double smallest_power(const Eigen::VectorXd& motion, const Eigen::VectorXd& multipliers) const;
 
  private:
   const Packing& packing_;
@@ -60,6 +67,7 @@ class RebuiltProblem {
   Eigen::MatrixXd matrix_;  ///< (3N + 2W) × 2M
   Eigen::VectorXd wrench_;  ///< 3N + 2W
   Eigen::MatrixXd kernel_;  ///< 2M × d
+  std::vector<ForceBound> bounds_, inequalities_, equalities_;
 };
 
 }  // namespace indet

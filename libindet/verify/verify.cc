@@ -44,6 +44,7 @@ class Verifier {
     compare_.equal_count(ranges_.rank + ranges_.nullity, ranges_.unknowns, "rank + nullity");
     std::int64_t unknowns = 0;
     for (const Contact& contact : packing_.contacts) unknowns += contact.mu > 0 ? 2 : 1;
+    unknowns += problem_.half_planes() - 2 * packing_.contact_count();  // slacks
     compare_.equal_count(ranges_.unknowns, unknowns, "unknowns");
     compare_.equal_count(ranges_.equations, needed_equations(), "equations");
     compare_.require(ranges_.dim <= ranges_.nullity, "dim: {} is larger than the nullity {}", ranges_.dim,
@@ -79,8 +80,13 @@ class Verifier {
       compare_.require(!is_held, "wall_motion: wall {} moves where it is not free", wall.id);
     }
     const Eigen::VectorXd motion = problem_.flat_motion(ranges_.motion, ranges_.wall_motion);
-    const double power = problem_.load_power(motion);
-    const double resisted = problem_.smallest_contact_power(motion);
+    const auto bounds = static_cast<Eigen::Index>(force_bounds(packing_).size());
+    if (!compare_.require(ranges_.bound_multipliers.size() == bounds, "bound_multipliers: {} for {} bounds",
+                          ranges_.bound_multipliers.size(), bounds)) {
+      return;
+    }
+    const double power = problem_.load_power(motion) + problem_.bounds_power(ranges_.bound_multipliers);
+    const double resisted = problem_.smallest_power(motion, ranges_.bound_multipliers);
     compare_.require(power > 0, "motion: the load does no work ({})", power);
     compare_.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})",
                      resisted);
@@ -99,7 +105,7 @@ class Verifier {
       compare_.require(std::isfinite(residuals_.back()), "state {}: not a number", k);
       compare_.equal(ranges_.norm[k], ranges_.states.row(k).norm(), fmt::format("norm of state {}", k));
       std::vector<int> tight;
-      for (int h = 0; h < 2 * packing_.contact_count(); ++h) {
+      for (int h = 0; h < problem_.half_planes(); ++h) {
         if (problem_.slack(h, forces) <= tolerance::kTightHalfPlane * scale) tight.push_back(h);
       }
       for (const int h : ranges_.active.row(k)) {
@@ -297,7 +303,7 @@ class Verifier {
       touch(contact.a);
       if (!contact.b.is_wall()) touch(contact.b.disk_id());
     }
-    std::int64_t count = 0;
+    auto count = static_cast<std::int64_t>(force_bounds(packing_).size());
     for (int w = 0; w < packing_.wall_count(); ++w) {
       const Wall& wall = packing_[WallId(w)];
       bool touched = false;

@@ -1,0 +1,55 @@
+#include "libindet/packing/force_bounds.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace indet {
+
+std::vector<ForceBound> force_bounds(const Packing& packing) {
+  std::vector<ForceBound> bounds;
+  const auto add = [&](ContactId contact, bool tangential, double lo, double hi) {
+    using Side = ForceBound::Side;
+    if (lo == hi) {
+      bounds.push_back({contact, tangential, Side::kEqual, lo});
+      return;
+    }
+    if (lo > -std::numeric_limits<double>::infinity())
+      bounds.push_back({contact, tangential, Side::kLower, lo, hi});
+    if (hi < std::numeric_limits<double>::infinity())
+      bounds.push_back({contact, tangential, Side::kUpper, hi, lo});
+  };
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& contact = packing[ContactId(i)];
+    const double none = -std::numeric_limits<double>::infinity();
+    add(ContactId(i), false, contact.R_lo > 0 || contact.R_lo == contact.R_hi ? contact.R_lo : none,
+        contact.R_hi);
+    const bool is_zero = contact.mu == 0 && contact.T_lo <= 0 && contact.T_hi >= 0;
+    if (!is_zero) add(ContactId(i), true, contact.T_lo, contact.T_hi);
+  }
+  return bounds;
+}
+
+std::vector<int> half_planes_of(const std::vector<ForceBound>& bounds, int contacts) {
+  std::vector<int> numbers;
+  int next = 2 * contacts;
+  for (const ForceBound& bound : bounds)
+    numbers.push_back(bound.side == ForceBound::Side::kEqual ? -1 : next++);
+  return numbers;
+}
+
+double slack(const ForceBound& bound, const Eigen::VectorXd& forces, double unit) {
+  const double beyond = forces[bound.component()] - bound.value / unit;
+  if (bound.side == ForceBound::Side::kEqual) return -std::abs(beyond);
+  return bound.side == ForceBound::Side::kLower ? beyond : -beyond;
+}
+
+std::string bound_name(const Packing& packing, const ForceBound& bound, double unit) {
+  const char* sign = bound.side == ForceBound::Side::kLower   ? "≥"
+                     : bound.side == ForceBound::Side::kUpper ? "≤"
+                                                              : "=";
+  return fmt::format("{} of {} {} {:.6g}", bound.tangential ? "T" : "R", contact_name(packing, bound.contact),
+                     sign, bound.value / unit);
+}
+
+}  // namespace indet
