@@ -20,6 +20,7 @@ struct VtkGrid {
   std::vector<std::uint8_t> types;         ///< [M]: all VTK_LINE
   std::vector<double> radius;              ///< [P]; 0 of a foot
   std::vector<std::int32_t> body;          ///< [P]: row of the disk, or −(w + 1) of the wall
+  std::vector<std::uint8_t> fixed;         ///< [P]: 1 of a fixed disk
 
   static constexpr std::uint8_t kLine = 3;  ///< VTK_LINE
   std::size_t point_count() const { return body.size(); }

@@ -28,6 +28,14 @@ const char* to_string(Extent extent) {
       return "d";
     case Extent::kBounds:
       return "B";
+    case Extent::kReactions:
+      return "P";
+    case Extent::kEnds:
+      return "2";
+    case Extent::kReactionStates:
+      return "S";
+    case Extent::kReactionRays:
+      return "U";
   }
   return "?";
 }
