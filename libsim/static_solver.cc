@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libsim/loaded_walls.h"
+#include "libsim/periodic_cell.h"
 #include "libsim/polish.h"
 
 namespace indet::sim {
@@ -59,6 +60,7 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
 StaticSolver::StaticSolver(const Packing& packing)
     : packing_(packing), units_(packing.force_units()), free_bodies_(free_bodies(packing)) {
   refuse_loaded_walls(packing, "the iterative solver");
+  refuse_periodic_cell(packing, "the iterative solver");
   for (const Contact& contact : packing.contacts) contacts_.push_back(solver_contact(packing, contact));
 }
 

@@ -11,6 +11,7 @@
 #include "libindet/base/error.h"
 #include "libindet/io/contact_columns.h"
 #include "libindet/io/file_ids.h"
+#include "libindet/io/scene_file.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -23,7 +24,7 @@ constexpr std::string_view kWallsBegin = "id,px,py,nx,ny,name";
 constexpr std::string_view kLoadColumns = ",load_n,load_t";
 constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap";
 constexpr std::string_view kLeverColumns = ",lever_a,lever_b";
-constexpr std::string_view kSceneBegin = "gravity = [";
+constexpr std::string_view kImageColumns = ",image_x,image_y";
 constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu";
 
 /// The shortest text that reads back as the same number; empty for NaN.
@@ -37,10 +38,20 @@ std::string quoted(std::string text) {
 }
 
 /// Adds the header and the columns that follow it.
-void begin_table(std::string& text, std::string_view header, bool has_more, std::string_view more) {
+void begin_table(std::string& text, std::string_view header, bool has_more, std::string_view more,
+                 bool has_last = false, std::string_view last = "") {
   text += header;
   if (has_more) text += more;
+  if (has_last) text += last;
   text += '\n';
+}
+
+/// What follows the other columns of a contact where the packing has it.
+std::string rare_fields(const Packing& packing, const Contact& c) {
+  std::string text;
+  if (packing.has_levers()) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+  if (packing.cell.is_periodic()) text += fmt::format(",{},{}", c.image[0], c.image[1]);
+  return text;
 }
 
 std::string disks_text(const Packing& packing, const FileIds& ids) {
@@ -75,21 +86,14 @@ std::string walls_text(const Packing& packing, const FileIds& ids) {
 std::string contacts_text(const Packing& packing, const FileIds& ids,
                           const Eigen::Ref<const Eigen::VectorXd>& forces) {
   std::string text;
-  const bool has_levers = packing.has_levers();
-  begin_table(text, kContactsBegin, has_levers, kLeverColumns);
+  begin_table(text, kContactsBegin, packing.has_levers(), kLeverColumns, packing.cell.is_periodic(),
+              kImageColumns);
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& c = packing[ContactId(i)];
     text += fmt::format("{},{},{},{},{},{},{},{}", ids.of(c.a), ids.of(c.b), c.normal.x(), c.normal.y(), c.mu,
                         field(forces[2 * i]), field(forces[2 * i + 1]), c.gap);
-    if (has_levers) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
-    text += '\n';
+    text += rare_fields(packing, c) + '\n';
   }
-  return text;
-}
-
-std::string scene_text(const Packing& packing) {
-  std::string text = fmt::format("{}{}, {}]\n", kSceneBegin, packing.gravity.x(), packing.gravity.y());
-  if (packing.named_force_unit > 0) text += fmt::format("force_unit = {}\n", packing.named_force_unit);
   return text;
 }
 
@@ -107,7 +111,7 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
   write_whole_file(folder / "disks.csv", disks_text(packing, ids));
   write_whole_file(folder / "walls.csv", walls_text(packing, ids));
   write_whole_file(folder / "contacts.csv", contacts_text(packing, ids, forces));
-  write_whole_file(folder / "scene.toml", scene_text(packing));
+  write_whole_file(folder / "scene.toml", scene_file_text(packing));
 }
 
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
@@ -116,9 +120,9 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
   const double mg = packing.force_unit();
   const std::vector<RangeColumn> columns =
       ranges != nullptr ? range_columns(*ranges, mg) : std::vector<RangeColumn>{};
-  const bool has_levers = packing.has_levers();
   std::string text(kTableBegin);
-  if (has_levers) text += kLeverColumns;
+  if (packing.has_levers()) text += kLeverColumns;
+  if (packing.cell.is_periodic()) text += kImageColumns;
   text += ",R_mg,T_mg";
   for (const RangeColumn& column : columns) {
     text += "," + column.name;
@@ -130,7 +134,7 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
     const Vector2 point = packing.contact_point(c);
     text += fmt::format("{},{},{},{},{},{},{},{},{}", i, ids.of(c.a), ids.of(c.b), point.x(), point.y(),
                         c.normal.x(), c.normal.y(), c.gap, c.mu);
-    if (has_levers) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+    text += rare_fields(packing, c);
     text += fmt::format(",{},{}", field(forces[2 * i] / mg), field(forces[2 * i + 1] / mg));
     for (const RangeColumn& column : columns) {
       text += "," + field(column.values[i]);
@@ -142,25 +146,26 @@ void write_contact_table(const std::filesystem::path& path, const Packing& packi
 }
 
 bool is_scene_table(std::string_view text) {
-  const auto begins = [&](std::string_view header, std::string_view more) {
+  const auto begins = [&](std::string_view header, std::string_view more, std::string_view last = "") {
     if (!text.starts_with(header)) return false;
     std::string_view rest = text.substr(header.size());
-    if (!more.empty() && rest.starts_with(more)) rest.remove_prefix(more.size());
+    if (rest.starts_with(more)) rest.remove_prefix(more.size());
+    if (rest.starts_with(last)) rest.remove_prefix(last.size());
     return rest.starts_with('\n');
   };
   if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, kLoadColumns) ||
-      begins(kContactsBegin, kLeverColumns))
+      begins(kContactsBegin, kLeverColumns, kImageColumns))
     return true;
-  // One line, or two; whoever adds to them has a scene of their own.
-  if (!text.starts_with(kSceneBegin)) return false;
-  const std::string_view rest = text.substr(text.find('\n') + 1);
-  return rest.empty() || (rest.starts_with("force_unit = ") && rest.find('\n') + 1 == rest.size());
+  return is_scene_file(text);
 }
 
 bool is_contact_table(std::string_view text) {
   if (!text.starts_with(kTableBegin)) return false;
-  const std::string_view rest = text.substr(kTableBegin.size());
-  return rest.starts_with(",R_mg,") || rest.starts_with(std::string(kLeverColumns) + ",R_mg,");
+  std::string_view rest = text.substr(kTableBegin.size());
+  for (const std::string_view columns : {kLeverColumns, kImageColumns}) {
+    if (rest.starts_with(columns)) rest.remove_prefix(columns.size());
+  }
+  return rest.starts_with(",R_mg,");
 }
 
 }  // namespace indet

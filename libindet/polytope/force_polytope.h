@@ -66,6 +66,9 @@ struct ForcePolytope {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
   /// The same of walls, if some are loaded: along the normal and the tangent [W, 2].
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_motion;
+  /// If stress is imposed, the rate of compression e_ij of the cell, times Packing::cell_length [2, 2]: what
+  /// lies at x moves with −e x beside its own velocity. It has no yx.
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> cell_motion;
   std::int64_t pivots = 0;
   std::int64_t solves = 0;
 };

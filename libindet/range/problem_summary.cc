@@ -19,6 +19,7 @@ ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope) 
   summary.force_unit = packing.force_unit();
   summary.motion = polytope.motion;
   summary.wall_motion = polytope.wall_motion;
+  summary.cell_motion = polytope.cell_motion;
   return summary;
 }
 

@@ -11,7 +11,7 @@ namespace indet {
 /// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F.
 enum class Extent : std::uint8_t {
   kOne,
-  kDirections,  ///< 2: along normal and tangent
+  kDirections,  ///< 2: along normal and tangent, or x and y
   kComponents,  ///< 3: x, y, rotation
   kColumns,     ///< 4: R_min, R_max, T_min, T_max
   kDisks,       ///< N
@@ -100,6 +100,10 @@ void visit_problem(Part& r, Visit& visit) {
               "virtual velocity along normal and tangent with which loaded walls move then",
               FieldSource::kProof, Extent::kWalls, Extent::kDirections, Presence::kWhereRows},
         r.wall_motion);
+  visit(Field{"/equilibrium", "cell_motion", "1",
+              "rate of compression times the length of the cell then, rows x, y and columns x, y",
+              FieldSource::kProof, Extent::kDirections, Extent::kDirections, Presence::kWhereRows},
+        r.cell_motion);
 }
 
 template <class Part, class Visit>

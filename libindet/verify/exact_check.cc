@@ -132,6 +132,8 @@ class Check {
         const auto v = ranges_.wall_motion.row(contact.b.wall_id().value());
         total -= v[0] + mu * v[1];
       }
+      if (ranges_.cell_motion.rows() == 2)
+        total -= force.dot(ranges_.cell_motion * packing_.branch(contact)) / packing_.cell_length();
       preference[static_cast<std::size_t>(e)] = -std::abs(total);
     }
     const auto basis = basis_by(preference);
