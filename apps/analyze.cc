@@ -155,6 +155,10 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
     json["moving_walls"].push_back(
         {{"index", w}, {"id", packing[WallId(w)].id}, {"motion", {motion[0], motion[1]}}});
   }
+  if (ranges.cell_motion.rows() > 0) {
+    const auto& e = ranges.cell_motion;
+    json["cell_motion"] = {{e(0, 0), e(0, 1)}, {e(1, 0), e(1, 1)}};
+  }
   if (ranges.status == PolytopeStatus::kUnbounded) {
     json["rays"] = ranges.rays.rows();
   }
@@ -183,6 +187,11 @@ void print_motion(const Packing& packing, const ForceRanges& ranges) {
     if (motion.norm() <= tolerance::kMotionEntry) continue;
     fmt::print("  wall {:<6} {:+.3f} along its normal, {:+.3f} along its tangent\n",
                describe_wall(packing[WallId(w)]), motion[0], motion[1]);
+  }
+  if (ranges.cell_motion.rows() > 0) {
+    const auto& e = ranges.cell_motion;
+    fmt::print("  the cell shrinks {:+.3f} along x, {:+.3f} along y, shears {:+.3f} (x against y)\n", e(0, 0),
+               e(1, 1), e(0, 1));
   }
 }
 
@@ -273,8 +282,8 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     fmt::print("\nwritten to {}\n", output);
     return;
   }
-  fmt::print("polytope of contact states: {}, dimension {} (2M − 3N = {}), {}\n", to_string(ranges.status),
-             ranges.dim, packing.expected_dimension(), counted(ranges.blocks, "independent block"));
+  fmt::print("polytope of contact states: {}, dimension {} ({}), {}\n", to_string(ranges.status), ranges.dim,
+             describe_expected_dimension(packing), counted(ranges.blocks, "independent block"));
   if (ranges.sliding >= 0)
     fmt::print("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
   if (ranges.choice != ContactChoice::Kind::kAll)

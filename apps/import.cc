@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "apps/output_files.h"
 #include "apps/wording.h"
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/lever_search.h"
 #include "libindet/io/packing_file.h"
@@ -18,8 +20,8 @@
 namespace indet::app {
 namespace {
 
-nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& report, double tolerance,
-                       const std::string& output) {
+nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& report,
+                       const StressReport& stress, double tolerance, const std::string& output) {
   const Packing& packing = imported.packing;
   nlohmann::json json = {{"output", output},
                          {"disks", packing.disk_count()},
@@ -35,10 +37,16 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
                          {"levers", packing.has_levers()},
                          {"loaded_walls", packing.has_loaded_walls()},
                          {"bounds", force_bounds(packing).size()},
+                         {"cell", cell_to_json(packing.cell)},
+                         {"stress", stress_to_json(packing.stress)},
                          {"without_equations", imported.without_equations},
                          {"loose_disks", report.loose_disks},
                          {"balance_tolerance", tolerance},
                          {"warnings", imported.warnings}};
+  if (stress.of_forces) {
+    const Eigen::Matrix2d& s = *stress.of_forces;
+    json["stress_of_forces"] = {{s(0, 0), s(0, 1)}, {s(1, 0), s(1, 1)}};
+  }
   if (imported.levers) {
     json["lever_choice"] = {{"levers", name_of(imported.levers->levers)},
                             {"tried", nlohmann::json::object()}};
@@ -49,6 +57,7 @@ nlohmann::json to_json(const ImportedPacking& imported, const BalanceReport& rep
   if (report.checked_disks > 0) {
     json["force_residual"] = report.force_residual;
     json["torque_residual"] = report.torque_residual;
+    if (packing.stress.is_imposed()) json["stress_residual"] = report.stress_residual;
     if (packing.has_loaded_walls()) json["wall_residual"] = report.wall_residual;
   }
   if (report.any_known()) {
@@ -97,7 +106,23 @@ void print_levers(const LeverChoice& choice) {
   }
 }
 
-void print_report(const ImportedPacking& imported, const BalanceReport& report, double tolerance) {
+/// The stress that the forces make, and what is imposed.
+void print_stress(const Packing& packing, const StressReport& report) {
+  if (report.of_forces) {
+    const Eigen::Matrix2d& s = *report.of_forces;
+    fmt::print("stress of forces    xx = {:.6g}, yy = {:.6g}, xy = {:.6g}\n", s(0, 0), s(1, 1), s(0, 1));
+    // Torques that do not act at the ends of the branch vectors leave this.
+    const double asymmetry = s(0, 1) - s(1, 0);
+    if (std::abs(asymmetry) > tolerance::kSymmetricStress * s.norm())
+      fmt::print("                    xy − yx = {:.3g}\n", asymmetry);
+  }
+  if (!packing.cell.is_full()) return;
+  fmt::print("imposed stress      {}{}\n", describe_stress(packing.stress),
+             report.is_taken_from_forces ? " (that of the forces)" : "");
+}
+
+void print_report(const ImportedPacking& imported, const BalanceReport& report, const StressReport& stress,
+                  double tolerance) {
   const Packing& packing = imported.packing;
   fmt::print("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", describe_disks(packing),
              counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"),
@@ -116,8 +141,14 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
                      ? ""
                      : fmt::format(" (wall {})", describe_wall(packing[report.worst_wall])));
     }
+    if (packing.stress.is_imposed() && report.forces_known && !stress.is_taken_from_forces)
+      fmt::print("stress off by       {:.2e} mg on a side of the cell\n", report.stress_residual);
     fmt::print("                    (accepted up to {:.0e})\n", tolerance);
     if (imported.levers) print_levers(*imported.levers);
+  }
+  if (packing.cell.is_periodic()) {
+    fmt::print("periodic cell       {}\n", describe_cell(packing.cell));
+    print_stress(packing, stress);
   }
   if (report.any_known()) {
     fmt::print("Coulomb violations  {}", report.coulomb_violations);
@@ -143,6 +174,9 @@ int run(const ImportArguments& options, const CLI::App& command, const Context& 
                replacement_rule(order.format->files(order.request), options.overwrite, context));
   ImportedPacking imported = order.format->read(order.request);
   imported.packing.origin.config = context.resolved_config;
+  const StressReport stress = impose_stress(
+      imported, order.stress,
+      fmt::format("{}: --stress", options.input.empty() ? options.dumps.atoms.string() : options.input));
   const double tolerance = options.balance_tolerance.value_or(default_balance_tolerance(imported));
   choose_levers(imported, order.levers, order.format->documented, tolerance);
   if (!imported.levers && (order.levers.pair || order.levers.wall)) {
@@ -160,11 +194,17 @@ int run(const ImportArguments& options, const CLI::App& command, const Context& 
         report.worst_violation));
   }
   require_balance(imported, report, tolerance);
+  if (report.stress_residual > tolerance) {
+    context.warn(fmt::format(
+        "the known forces do not make the stress that is imposed: {:.2e} mg are missing across a side of the "
+        "cell, so that they do not lie in the ranges",
+        report.stress_residual));
+  }
   write_packing(options.output, imported.packing, {context.arguments, context.resolved_config, {}, {}});
   if (context.json) {
-    std::cout << to_json(imported, report, tolerance, options.output).dump(2) << '\n';
+    std::cout << to_json(imported, report, stress, tolerance, options.output).dump(2) << '\n';
   } else if (context.prints_report()) {
-    print_report(imported, report, tolerance);
+    print_report(imported, report, stress, tolerance);
     fmt::print("written to {}\n", options.output);
   }
   return kDone;

@@ -129,6 +129,13 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
           "--force-unit", arguments.force_unit,
           "Unit of printed forces; needed without gravity (default: the mean weight of a disk; not csv)")
       ->check(CLI::PositiveNumber);
+  command
+      .add_option(
+          "--stress", arguments.stress,
+          "Stress on a cell that is periodic in both directions, in force per length, compression positive: "
+          "xx=…,yy=…,xy=… (any of them), pressure=…, or none (default: that of the files, else that of the "
+          "known forces)")
+      ->delimiter(',');
   command.add_option("--plane", arguments.plane, "Plane of the disks: xy or xz (default: xy; not csv)")
       ->check(CLI::IsMember({"xy", "xz"}));
   command
@@ -170,6 +177,7 @@ ImportOrder import_order(const ImportArguments& arguments, const CLI::App& comma
   settings.fixed = parsed("--fixed", [&] { return FixedRule::parse(arguments.fixed); });
   order.request.walls = arguments.walls;
   order.levers = parsed("--lever", [&] { return LeverRule::parse(arguments.lever); });
+  order.stress = parsed("--stress", [&] { return StressRule::parse(arguments.stress); });
   settings.columns = parse_columns(arguments.columns);
   settings.plane = arguments.plane == "xz" ? Plane::xz() : Plane::xy();
   settings.force_unit = arguments.force_unit;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libindet/io/import_format.h"
+#include "libindet/io/stress_rule.h"
 
 namespace indet::app {
 
@@ -13,7 +14,7 @@ namespace indet::app {
 struct ImportArguments {
   std::string format, input, output;
   DumpFiles dumps;
-  std::vector<std::string> friction, lever, fixed, columns, walls;
+  std::vector<std::string> friction, lever, fixed, stress, columns, walls;
   std::vector<double> gravity = {0, -1};
   double force_unit = 0;
   std::string plane = "xy";
@@ -26,6 +27,7 @@ struct ImportOrder {
   const ImportFormat* format = nullptr;
   ImportRequest request;
   LeverRule levers;
+  StressRule stress;
 };
 
 void add_import_options(CLI::App& command, ImportArguments& arguments);

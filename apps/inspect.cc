@@ -140,6 +140,8 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
       {"levers", packing.has_levers()},
       {"loaded_walls", packing.has_loaded_walls()},
       {"bounds", force_bounds(packing).size()},
+      {"cell", cell_to_json(packing.cell)},
+      {"stress", stress_to_json(packing.stress)},
       {"gravity", {packing.gravity.x(), packing.gravity.y()}},
       {"force_unit", packing.force_unit()},
       {"r_max", packing.max_radius()},
@@ -214,10 +216,12 @@ void print_packing(const FileContents& contents) {
                          fixed > 0 ? fmt::format(" ({} fixed)", fixed) : "", span_text(radius, "")));
   print_line("  walls", walls);
   print_line("  contacts",
-             fmt::format("{} (2M − 3N = {})", packing.contact_count(), packing.expected_dimension()));
+             fmt::format("{} ({})", packing.contact_count(), describe_expected_dimension(packing)));
   if (packing.has_levers()) print_line("  levers", describe_levers(packing));
   if (packing.has_bounds())
     print_line("  bounds", fmt::format("{} of R and T", force_bounds(packing).size()));
+  if (packing.cell.is_periodic()) print_line("  periodic cell", describe_cell(packing.cell));
+  if (packing.cell.is_full()) print_line("  imposed stress", describe_stress(packing.stress));
   print_line("  friction",
              friction.low == friction.high ? fmt::format("{:g}", friction.low) : span_text(friction, ""));
   if (packing.origin.width > 0 && packing.origin.height > 0) {

@@ -49,6 +49,51 @@ std::string describe_levers(const Packing& packing) {
                      counted(packing.contact_count(), "contact"), least, most);
 }
 
+std::string describe_expected_dimension(const Packing& packing) {
+  const int expected = packing.expected_dimension();
+  const int free =
+      packing.cell.is_full() && packing.fixed_disk_count() == 0 && packing.disk_count() > 0 ? 2 : 0;
+  const int further = 2 * packing.contact_count() - 3 * packing.free_disk_count() + free - expected;
+  return fmt::format("2M − 3N{}{} = {}", further > 0 ? fmt::format(" − {}", further) : "",
+                     free > 0 ? " + 2" : "", expected);
+}
+
+std::string describe_cell(const Cell& cell) {
+  std::string text;
+  for (const auto& vector : {cell.a, cell.b}) {
+    if (vector) text += fmt::format("{}({:.6g}, {:.6g})", text.empty() ? "" : ", ", vector->x(), vector->y());
+  }
+  return text;
+}
+
+std::string describe_stress(const Stress& stress) {
+  if (!stress.is_imposed()) return "none";
+  std::string text;
+  const auto components = stress.components();
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    if (std::isnan(components[k])) continue;
+    text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", Stress::kNames[k], components[k]);
+  }
+  return text;
+}
+
+nlohmann::json cell_to_json(const Cell& cell) {
+  if (!cell.is_periodic()) return {};
+  const auto vector = [](const std::optional<Vector2>& v) {
+    return v ? nlohmann::json({v->x(), v->y()}) : nlohmann::json();
+  };
+  return {{"a", vector(cell.a)}, {"b", vector(cell.b)}};
+}
+
+nlohmann::json stress_to_json(const Stress& stress) {
+  nlohmann::json json = nlohmann::json::object();
+  const auto components = stress.components();
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    if (!std::isnan(components[k])) json[Stress::kNames[k]] = components[k];
+  }
+  return json;
+}
+
 std::string describe_method(const ForceRanges& ranges) {
   switch (ranges.method) {
     case Method::kLp:

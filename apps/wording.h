@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "libindet/base/counted.h"
@@ -23,6 +24,21 @@ const char* reaction_component(Body body, int component);
 
 /// "of 40 of 376 contacts given, 0.9876 … 1 of the radius". Precondition: packing.has_levers().
 std::string describe_levers(const Packing& packing);
+
+/// "2M − 3N = 92"; with loaded walls or imposed stress "2M − 3N − 4 = …" for 4 further equations, in a cell
+/// that nothing fixed holds "… + 2 = …", for two of the equations that follow from the others.
+std::string describe_expected_dimension(const Packing& packing);
+
+/// "(10, 0), (0, 8)"; "(10, 0)" where one vector is missing. Precondition: it is periodic.
+std::string describe_cell(const Cell& cell);
+
+/// "xx = 1, yy = 1, xy = 0.02", "pressure = 1", "none".
+std::string describe_stress(const Stress& stress);
+
+/// null where the scene is not periodic; {"a": [10, 0], "b": null}.
+nlohmann::json cell_to_json(const Cell& cell);
+/// The components that are imposed.
+nlohmann::json stress_to_json(const Stress& stress);
 
 /// "linear programs (edge)", "pivoting-paper (neighbour: first, start: common)", "pivoting-tableau".
 std::string describe_method(const ForceRanges& ranges);

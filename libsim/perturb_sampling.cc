@@ -9,7 +9,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
 #include "libindet/base/worker_team.h"
-#include "libsim/loaded_walls.h"
+#include "libsim/unsupported.h"
 
 namespace indet::sim {
 namespace {
@@ -119,7 +119,7 @@ PerturbEnsemble perturb_and_resolve(const Packing& packing, const PerturbOptions
   if (!packing.has_simulated_forces()) {
     throw InputError("the packing's forces are unknown, but perturb-and-resolve starts from them");
   }
-  refuse_loaded_walls(packing, "perturb-and-resolve");
+  refuse_unsupported(packing, "perturb-and-resolve");
   PerturbEnsemble ensemble;
   ensemble.samples.resize(static_cast<std::size_t>(options.samples));
   // Sample i belongs to chain i mod chains. Chains advance together, one round of samples at a time.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libsim/loaded_walls.h"
+#include "libsim/periodic_cell.h"
 
 namespace indet::sim {
 namespace {
@@ -74,6 +75,7 @@ double cone_violation(const Packing& packing, const Eigen::VectorXd& forces) {
 Polisher::Polisher(const Packing& packing, const PolishOptions& options)
     : packing_(packing), options_(options), units_(packing.force_units()), solver_(packing) {
   refuse_loaded_walls(packing, "the polish");
+  refuse_periodic_cell(packing, "the polish");
 }
 
 Polisher::Attempt Polisher::attempt(std::vector<ContactStatus> statuses) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "libsim/loaded_walls.h"
 #include "libsim/polish.h"
+#include "libsim/unsupported.h"
 
 namespace indet::sim {
 namespace {
@@ -58,7 +58,7 @@ SolverContact solver_contact(const Packing& packing, const Contact& contact) {
 
 StaticSolver::StaticSolver(const Packing& packing)
     : packing_(packing), units_(packing.force_units()), free_bodies_(free_bodies(packing)) {
-  refuse_loaded_walls(packing, "the iterative solver");
+  refuse_unsupported(packing, "the iterative solver");
   for (const Contact& contact : packing.contacts) contacts_.push_back(solver_contact(packing, contact));
 }
 

@@ -33,6 +33,12 @@ inline constexpr double kCancellingLoads = 1e-9;
 /// A fixed body takes a direction of force if its own is not perpendicular to it to this (radian).
 inline constexpr double kFreeDirection = 1e-9;
 
+/// The vectors of a cell are parallel if its area is up to this, relative to the product of their lengths.
+inline constexpr double kFlatCell = 1e-6;
+
+/// σ_xy and σ_yx of known forces are the same if they differ by up to this, relative to the stress.
+inline constexpr double kSymmetricStress = 1e-9;
+
 /// Bodies whose surfaces are further apart than this, relative to the sum of their radii, cannot push each
 /// other.
 inline constexpr double kPushingDistance = 0.1;

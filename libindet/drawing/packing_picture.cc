@@ -93,10 +93,12 @@ void draw_tangential(Sheet& sheet, const Contact& contact, double t, const Force
   const Colour& colour = t > 0 ? palette::kPositive : palette::kNegative;
   const Vector2 along = Sheet::direction(contact.tangent()) * (t > 0 ? length : -length);
   const Vector2 inwards = Sheet::direction(contact.normal) * (0.5 * thickness);
-  const Vector2 point = sheet.contact_point(contact);
-  sheet.canvas().line(point + inwards, point + inwards + along, thickness, colour, false, false);
-  if (contact.b.is_wall()) return;
-  sheet.canvas().line(point - inwards, point - inwards - along, thickness, colour, false, false);
+  for (const Sheet::Line& line : sheet.lines(contact)) {
+    const Vector2& point = line.point;
+    sheet.canvas().line(point + inwards, point + inwards + along, thickness, colour, false, false);
+    if (contact.b.is_wall()) continue;
+    sheet.canvas().line(point - inwards, point - inwards - along, thickness, colour, false, false);
+  }
 }
 
 constexpr double kBarHeight = 34;
@@ -132,11 +134,13 @@ void draw_forces(const std::filesystem::path& path, const Packing& packing,
   for (const int i : order) {
     const Contact& contact = packing[ContactId(i)];
     const double r = forces[2 * i] / scale.unit;
-    if (!std::isfinite(r) || !std::isfinite(forces[2 * i + 1])) {
-      sheet.canvas().line(sheet.centre(contact.a), sheet.end(contact), 0.6, palette::kUnknown, true);
-    } else if (r > 0) {
-      sheet.canvas().line(sheet.centre(contact.a), sheet.end(contact), scale.thickness(r, sheet),
-                          palette::kBlack, false, !contact.b.is_wall());
+    for (const Sheet::Line& line : sheet.lines(contact)) {
+      if (!std::isfinite(r) || !std::isfinite(forces[2 * i + 1])) {
+        sheet.canvas().line(line.from, line.to, 0.6, palette::kUnknown, true);
+      } else if (r > 0) {
+        sheet.canvas().line(line.from, line.to, scale.thickness(r, sheet), palette::kBlack, false,
+                            !contact.b.is_wall());
+      }
     }
   }
   for (const int i : order) {
@@ -176,16 +180,16 @@ void draw_delta_R(const std::filesystem::path& path, const Packing& packing,
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
   for (const int i : order) {
     const Contact& contact = packing[ContactId(i)];
-    const Vector2 from = sheet.centre(contact.a);
-    const Vector2 to = sheet.end(contact);
     const bool round = !contact.b.is_wall();
-    if (std::isnan(delta_R[i])) {
-      sheet.canvas().line(from, to, 0.6, palette::kUnknown);
-    } else if (std::isinf(delta_R[i])) {
-      sheet.canvas().line(from, to, thickness, palette::kUnbounded, true, false);
-    } else {
-      const double fraction = largest > 0 ? delta_R[i] / largest : 0;
-      sheet.canvas().line(from, to, thickness, map_colour(fraction), false, round);
+    for (const Sheet::Line& line : sheet.lines(contact)) {
+      if (std::isnan(delta_R[i])) {
+        sheet.canvas().line(line.from, line.to, 0.6, palette::kUnknown);
+      } else if (std::isinf(delta_R[i])) {
+        sheet.canvas().line(line.from, line.to, thickness, palette::kUnbounded, true, false);
+      } else {
+        const double fraction = largest > 0 ? delta_R[i] / largest : 0;
+        sheet.canvas().line(line.from, line.to, thickness, map_colour(fraction), false, round);
+      }
     }
   }
   if (largest > 0) draw_colour_bar(sheet, largest, unit_name(packing));

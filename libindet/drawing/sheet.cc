@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -47,7 +48,16 @@ Vector2 Sheet::place(const Vector2& point) const {
   return {left_ + (point.x() - low_.x()) * scale_, kMargin + (high_.y() - point.y()) * scale_};
 }
 
-Vector2 Sheet::contact_point(const Contact& contact) const { return place(packing_.contact_point(contact)); }
+std::vector<Sheet::Line> Sheet::lines(const Contact& contact) const {
+  const Vector2& a = packing_[contact.a].position;
+  const Vector2 point = packing_.contact_point(contact);
+  if (contact.b.is_wall()) return {{place(a), place(point), place(point)}};
+  const Vector2& b = packing_[contact.b.disk_id()].position;
+  if (!contact.has_image()) return {{place(a), place(point), place(b)}};
+  const Vector2 image = a - packing_.branch(contact);
+  const Vector2 back = b - image;
+  return {{place(a), place(point), place(image)}, {place(a + back), place(point + back), place(b)}};
+}
 
 void Sheet::draw_bodies() {
   const std::vector<Vector2> view = {low_, {high_.x(), low_.y()}, high_, {low_.x(), high_.y()}};
@@ -67,6 +77,7 @@ void Sheet::draw_bodies() {
       canvas_->hatch(place(disk.position), disk.radius * scale_, palette::kDiskOutline, thickness);
   }
   draw_wall_lines(domain);
+  draw_cell();
   draw_loads(domain);
 }
 
@@ -91,6 +102,7 @@ void Sheet::measure() {
     sum += disk.radius / static_cast<double>(packing_.disks.size());
   }
   mean_radius_ = packing_.disks.empty() ? 1 : sum;
+  if (packing_.cell.is_periodic() && !packing_.disks.empty()) measure_cell();
   const Vector2 border = Vector2::Constant(0.4 * mean_radius_);
   low_ -= border;
   high_ += border;
@@ -100,6 +112,56 @@ void Sheet::measure() {
   scale_ = std::min(scale_, 60 / mean_radius_);
   width_ = std::max(size.x() * scale_, kNarrowest) + 2 * kMargin;
   left_ = 0.5 * (width_ - size.x() * scale_);
+}
+
+/// Where the cell lies is not known, only its vectors: its middle is put at that of the disks, in coordinates
+/// along these. Contacts across the boundary may reach beyond the disks.
+void Sheet::measure_cell() {
+  const auto& [a, b] = packing_.cell;
+  const bool is_full = packing_.cell.is_full();
+  const Vector2 first = a ? *a : *b;
+  const Vector2 second = is_full ? *b : Vector2(-first.y(), first.x()).normalized();
+  Eigen::Matrix2d vectors;
+  vectors << first, second;
+  const Eigen::Matrix2d inverse = vectors.inverse();
+  Vector2 least = inverse * packing_.disks.front().position;
+  Vector2 most = least;
+  for (const Disk& disk : packing_.disks) {
+    const Vector2 place = inverse * disk.position;
+    // Across a cell of one direction the sides reach as far as the disks do.
+    const Vector2 reach(0, is_full ? 0 : disk.radius);
+    least = least.cwiseMin(place - reach);
+    most = most.cwiseMax(place + reach);
+  }
+  const Vector2 size(1, is_full ? 1 : most.y() - least.y());
+  const Vector2 start = (least + most - size) / 2;
+  const Vector2 corner = vectors * start;
+  const Vector2 right = first * size.x();
+  const Vector2 up = second * size.y();
+  cell_sides_ = {{corner, corner + up}, {corner + right, corner + right + up}};
+  if (is_full) {
+    cell_sides_.emplace_back(corner, corner + right);
+    cell_sides_.emplace_back(corner + up, corner + right + up);
+  }
+  const auto show = [&](const Vector2& point) {
+    low_ = low_.cwiseMin(point);
+    high_ = high_.cwiseMax(point);
+  };
+  for (const auto& [from, to] : cell_sides_) {
+    show(from);
+    show(to);
+  }
+  for (const Contact& contact : packing_.contacts) {
+    if (!contact.has_image()) continue;
+    const Vector2 branch = packing_.branch(contact);
+    show(packing_[contact.a].position - branch);
+    show(packing_[contact.b.disk_id()].position + branch);
+  }
+}
+
+void Sheet::draw_cell() {
+  for (const auto& [from, to] : cell_sides_)
+    canvas_->line(place(from), place(to), 0.6, palette::kCell, true, false);
 }
 
 /// The edges of the domain that walls make.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libindet/drawing/canvas.h"
@@ -34,12 +35,13 @@ class Sheet {
   /// A direction of the scene on the page.
   static Vector2 direction(const Vector2& vector) { return {vector.x(), -vector.y()}; }
 
-  Vector2 centre(DiskId disk) const { return place(packing_[disk].position); }
-  /// The end of a contact's line at body b: its centre, or the contact point at a wall.
-  Vector2 end(const Contact& contact) const {
-    return contact.b.is_wall() ? contact_point(contact) : centre(contact.b.disk_id());
-  }
-  Vector2 contact_point(const Contact& contact) const;
+  /// A contact on the page: the centre of a, the contact point, and the end of its line at body b: its
+  /// centre, or the contact point at a wall.
+  struct Line {
+    Vector2 from, point, to;
+  };
+  /// A contact with an image has two: from a to the image of b, and from the image of a to b.
+  std::vector<Line> lines(const Contact& contact) const;
 
   void draw_bodies();
   /// Draws legend and caption, and writes the file.
@@ -49,9 +51,13 @@ class Sheet {
   void measure();
   void draw_wall_lines(const std::vector<Vector2>& domain);
   void draw_loads(const std::vector<Vector2>& domain);
+  /// The sides of the cell, dashed, about the middle of the disks.
+  void draw_cell();
+  void measure_cell();
 
   const Packing& packing_;
   Vector2 low_{0, 0}, high_{0, 0};
+  std::vector<std::pair<Vector2, Vector2>> cell_sides_;  ///< in the scene
   double scale_ = 1, mean_radius_ = 1, width_ = 0, left_ = 0, legend_top_ = 0, caption_top_ = 0;
   std::optional<Legend> legend_;
   std::optional<Caption> caption_;

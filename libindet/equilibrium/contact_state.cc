@@ -43,11 +43,42 @@ Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Pa
   return residual.unaryExpr([](double value) { return std::isnan(value) ? 0 : value; });
 }
 
+Eigen::Matrix2d contact_stress(const Packing& packing, const SceneForces& forces) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& contact = packing[ContactId(i)];
+    const Vector2 force =
+        forces.value()[2 * i] * contact.normal + forces.value()[2 * i + 1] * contact.tangent();
+    sum += force * packing.branch(contact).transpose();
+  }
+  return sum / packing.cell.area();
+}
+
+Eigen::Vector4d stress_residual(const Packing& packing, const SceneForces& forces) {
+  Eigen::Vector4d residual = Eigen::Vector4d::Zero();
+  if (!packing.stress.is_imposed()) return residual;
+  const double length = packing.cell_length();
+  const double unit = packing.force_unit();
+  const auto imposed = packing.stress.components();
+  for (int k = 0; k < 4; ++k)
+    residual[k] = packing.cell.area() / length * (imposed[static_cast<std::size_t>(k)] / unit);
+  for (int i = 0; i < packing.contact_count(); ++i) {
+    const Contact& contact = packing[ContactId(i)];
+    const Vector2 force =
+        forces.value()[2 * i] / unit * contact.normal + forces.value()[2 * i + 1] / unit * contact.tangent();
+    const Vector2 branch = packing.branch(contact) / length;
+    for (int k = 0; k < 4; ++k) residual[k] -= stress_part(k, force, branch);
+  }
+  return residual.unaryExpr([](double value) { return std::isnan(value) ? 0 : value; });
+}
+
 double largest_imbalance(const Packing& packing, const SceneForces& forces) {
   double largest = 0;
   if (packing.disk_count() > 0) largest = equilibrium_residual(packing, forces).cwiseAbs().maxCoeff();
   if (packing.has_loaded_walls())
     largest = std::max(largest, wall_residual(packing, forces).cwiseAbs().maxCoeff());
+  if (packing.stress.is_imposed())
+    largest = std::max(largest, stress_residual(packing, forces).cwiseAbs().maxCoeff());
   return largest;
 }
 

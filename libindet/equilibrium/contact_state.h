@@ -16,7 +16,14 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> equilibrium_residual(c
 Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_residual(const Packing& packing,
                                                                         const SceneForces& forces);
 
-/// The largest of both, by magnitude; 0 for a packing without bodies.
+/// The stress that contact forces make in a full cell, Σ f_i l_j / A: row i, column j.
+Eigen::Matrix2d contact_stress(const Packing& packing, const SceneForces& forces);
+
+/// The residual of the imposed components of the stress (xx, yy, xy, pressure), as forces across a side of
+/// the cell in mg: (A σ_ij − Σ f_i l_j)/L with L = Packing::cell_length; 0 of what is not imposed.
+Eigen::Vector4d stress_residual(const Packing& packing, const SceneForces& forces);
+
+/// The largest of all three, by magnitude; 0 for a packing without bodies.
 double largest_imbalance(const Packing& packing, const SceneForces& forces);
 
 /// The largest amount by which forces break a bound that the scene sets (force_bounds.h), mg; 0 if none.

@@ -43,6 +43,7 @@ class RowNumbering {
  public:
   RowNumbering(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units)
       : numbers_(packing.disks.size(), {-1, -1, -1}), wall_numbers_(packing.walls.size(), {-1, -1}) {
+    cell_numbers_.fill(-1);
     std::vector<std::array<bool, 3>> needed(packing.disks.size(), {false, false, false});
     std::vector<std::array<bool, 2>> needed_of_wall(packing.walls.size(), {false, false});
     const auto touch = [&](DiskId disk, bool turns) {
@@ -89,6 +90,7 @@ class RowNumbering {
         rows_.push_back({Body::wall(WallId(w)), -1, k, units.internal_in_scene(), std::abs(load)});
       }
     }
+    if (packing.stress.is_imposed()) number_stress(packing, modes, units);
   }
 
   int operator()(DiskId disk, int component) const {
@@ -97,11 +99,25 @@ class RowNumbering {
   int operator()(WallId wall, int component) const {
     return wall_numbers_[static_cast<std::size_t>(wall.value())][static_cast<std::size_t>(component)];
   }
+  int of_cell(int component) const { return cell_numbers_[static_cast<std::size_t>(component)]; }
   const std::vector<EquilibriumRow>& rows() const { return rows_; }
 
  private:
+  void number_stress(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units) {
+    const bool carries =
+        std::any_of(modes.begin(), modes.end(), [](ContactMode mode) { return mode != ContactMode::kOpen; });
+    const auto stress = packing.stress.components();
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+      if (std::isnan(stress[k]) || (!carries && stress[k] == 0)) continue;
+      cell_numbers_[k] = static_cast<int>(rows_.size());
+      rows_.push_back({Body::cell(), static_cast<int>(k), units.internal_in_scene() * packing.cell_length(),
+                       packing.cell.area() * std::abs(stress[k])});
+    }
+  }
+
   std::vector<std::array<int, 3>> numbers_;
   std::vector<std::array<int, 2>> wall_numbers_;
+  std::array<int, 4> cell_numbers_{};
   std::vector<EquilibriumRow> rows_;
 };
 
@@ -117,6 +133,10 @@ void add_column(const RowNumbering& number, const Contact& contact, const Contac
   };
   if (ends.a >= 0) add(contact.a, 1, ends.arm_a);
   if (ends.b >= 0) add(contact.b.disk_id(), -1, ends.arm_b);
+  for (int k = 0; k < 4; ++k) {
+    if (number.of_cell(k) >= 0)
+      out.emplace_back(number.of_cell(k), column, -stress_part(k, force, ends.branch));
+  }
   if (!contact.b.is_wall()) return;
   const int along_normal = number(contact.b.wall_id(), 0);
   const int along_tangent = number(contact.b.wall_id(), 1);
@@ -179,6 +199,10 @@ double load_of(const Packing& packing, const EquilibriumRow& row, double unit) {
   if (row.body.is_wall()) {
     const Wall& wall = packing[row.body.wall_id()];
     return (row.component == 0 ? wall.load_n : wall.load_t) / unit;
+  }
+  if (row.body.is_cell()) {
+    const double stress = packing.stress.components()[static_cast<std::size_t>(row.component)];
+    return packing.cell.area() * (stress / unit) / packing.cell_length();
   }
   Vector3 wrench = packing.wrench(row.body.disk_id()) / unit;
   wrench.z() /= packing[row.body.disk_id()].radius;
@@ -249,6 +273,15 @@ std::vector<int> EquilibriumProblem::first_unknowns() const {
   return first;
 }
 
+Eigen::Matrix2d EquilibriumProblem::compression_of(const Eigen::VectorXd& motion) const {
+  std::array<double, 4> multipliers{};
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (rows[row].body.is_cell())
+      multipliers[static_cast<std::size_t>(rows[row].component)] = motion[static_cast<Eigen::Index>(row)];
+  }
+  return compression(multipliers);
+}
+
 Eigen::VectorXd EquilibriumProblem::unknowns_of(const InternalForces& state) const {
   const Eigen::VectorXd& F = state.value();
   Eigen::VectorXd u(unknowns());
@@ -307,6 +340,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
     ends.arm_a = packing.lever_a(ContactId(i)) / packing[contact.a].radius;
     if (!contact.b.is_wall())
       ends.arm_b = packing.lever_b(ContactId(i)) / packing[contact.b.disk_id()].radius;
+    if (packing.stress.is_imposed()) ends.branch = packing.branch(contact) / packing.cell_length();
     problem.contacts.push_back(ends);
   }
   describe_unknowns(problem);

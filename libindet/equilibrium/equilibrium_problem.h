@@ -28,10 +28,11 @@ std::vector<ContactMode> natural_modes(const Packing& packing);
 struct EquilibriumRow {
   Body body;
   int bound = -1;     ///< ≥ 0: not an equation of a body, but of this bound (EquilibriumProblem::bounds)
-  int component = 0;  ///< disk: 0 force x, 1 force y, 2 torque divided by the radius; wall: 0 n̂, 1 t̂
-  double unit = 1;    ///< of the equation as it would read in the scene's units: the internal unit of force,
-                      ///< times the radius for a torque
-  double load = 0;    ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
+  int component = 0;  ///< disk: 0 force x, 1 force y, 2 torque divided by the radius; wall: 0 n̂, 1 t̂; cell:
+                      ///< 0 xx, 1 yy, 2 xy, 3 pressure of the stress times its area, divided by cell_length
+  double unit = 1;  ///< of the equation as it would read in the scene's units: the internal unit of force,
+                    ///< times the radius for a torque, times the cell's length for a stress
+  double load = 0;  ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
 };
 
 /// A bound of a force as rows of the problem: F − s = lo, F + s = hi, or where a force has both
@@ -65,6 +66,7 @@ struct ContactEnds {
   double mu = 0;
   int a = -1, b = -1;  ///< the equation of force x of each disk; force y is the next. −1: it has none.
   double arm_a = 1, arm_b = 1;  ///< l/r of each body: what T adds to its torque equation
+  Vector2 branch{0, 0};         ///< l over the cell's length, where stress is imposed
 
   /// t̂ = n̂ × ẑ [10].
   Vector2 tangent() const { return {normal.y(), -normal.x()}; }
@@ -79,8 +81,9 @@ struct ContactEnds {
 /// and l/r, whatever the scale of the scene: 1, unless the contact has another lever arm l. A disk whose
 /// contacts are all frictionless has no torque equation (unless a torque acts on it); a fixed disk, and one
 /// with neither contact nor load, has none. A loaded wall has −ΣR = −load_n, −ΣT = −load_t, what of it is
-/// given: as body b of its contacts it takes their forces with the minus sign, as a disk does. Rows of bounds
-/// come last.
+/// given: as body b of its contacts it takes their forces with the minus sign, as a disk does. Imposed stress
+/// has −Σ f_i l_j / L = −A σ_ij / L of the components that are given, with L = Packing::cell_length, so that
+/// the rows are forces across a side of the cell and about as long as the others. Rows of bounds come last.
 ///
 /// Columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or nothing
 /// (kOpen); then the slacks s of bounds:   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
@@ -113,6 +116,9 @@ struct EquilibriumProblem {
   int half_plane(const Edge& edge) const;
   /// The first unknown of each contact; −1 if it has none. M.
   std::vector<int> first_unknowns() const;
+  /// The part of the cell in a motion of the equations (one velocity a row): the rate of compression e, times
+  /// the cell's length. At a contact it adds −e · branch to the relative velocity of a and b.
+  Eigen::Matrix2d compression_of(const Eigen::VectorXd& motion) const;
   /// b of the load that acts.
   auto load() const { return right_hand_sides.col(0); }
 

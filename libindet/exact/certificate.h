@@ -9,7 +9,8 @@
 
 namespace indet::exact {
 
-/// A virtual motion, one velocity a row (x, y, and rω times its spin_scale of each disk), over the rational
+/// A virtual motion, one velocity a row (x, y, and rω times its spin_scale of each disk;
+/// a rate of compression times compression_scale), over the rational
 /// numbers.
 class Motion {
  public:

@@ -15,8 +15,14 @@ using Entries = std::vector<std::pair<int, mpq_class>>;
 
 /// Multiplies a column of dyadic numbers by the smallest power of two that makes it integer.
 IntegerColumn integer_column(Entries entries) {
-  std::erase_if(entries, [](const auto& entry) { return entry.second == 0; });
   std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // A disk that touches an image of itself has two entries in each of its rows.
+  for (std::size_t k = 1; k < entries.size(); ++k) {
+    if (entries[k].first != entries[k - 1].first) continue;
+    entries[k].second += entries[k - 1].second;
+    entries[k - 1].second = 0;
+  }
+  std::erase_if(entries, [](const auto& entry) { return entry.second == 0; });
   IntegerColumn column;
   bool first = true;
   for (const auto& [row, value] : entries) {
@@ -46,6 +52,11 @@ class RowNumbers {
       if (wall.is_free_along_normal()) need(contact.b.wall_id(), 0);
       if (wall.is_free_along_tangent() && contact.mu > 0) need(contact.b.wall_id(), 1);
     }
+    const auto stress = packing.stress.components();
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+      if (!std::isnan(stress[k]) && (!packing.contacts.empty() || stress[k] != 0))
+        cell_numbers_[k] = count_++;
+    }
   }
   int operator()(DiskId disk, int component) const {
     return numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
@@ -63,6 +74,8 @@ class RowNumbers {
     if (number < 0) number = count_++;
     return number;
   }
+  int of_cell(int component) const { return cell_numbers_[static_cast<std::size_t>(component)]; }
+  const std::array<int, 4>& of_cell() const { return cell_numbers_; }
   int count() const { return count_; }
   const std::vector<std::array<int, 3>>& all() const { return numbers_; }
   const std::vector<std::array<int, 2>>& of_walls() const { return wall_numbers_; }
@@ -75,6 +88,7 @@ class RowNumbers {
   }
   std::vector<std::array<int, 3>> numbers_;
   std::vector<std::array<int, 2>> wall_numbers_;
+  std::array<int, 4> cell_numbers_{-1, -1, -1, -1};
   int count_ = 0;
 };
 
@@ -106,10 +120,32 @@ std::array<mpq_class, 3> exact_wrench(const Packing& packing, const Disk& disk, 
   return wrench;
 }
 
-/// The lever of each end over the divisor of its disk.
+/// The lever of each end over the divisor of its disk, and the branch vector over that of the cell.
 struct Ends {
   mpq_class arm_a, arm_b;
+  std::array<mpq_class, 2> branch;
 };
+
+/// x_a − x_b − image · cell vectors, over `divisor`.
+std::array<mpq_class, 2> exact_branch(const Packing& packing, const indet::Contact& contact, double divisor) {
+  std::array<mpq_class, 2> branch;
+  for (const int k : {0, 1}) {
+    mpq_class& value = branch[static_cast<std::size_t>(k)];
+    value = mpq_class(packing[contact.a].position[k]) - mpq_class(packing[contact.b.disk_id()].position[k]);
+    if (packing.cell.a) value -= contact.image[0] * mpq_class((*packing.cell.a)[k]);
+    if (packing.cell.b) value -= contact.image[1] * mpq_class((*packing.cell.b)[k]);
+    value /= mpq_class(divisor);
+  }
+  return branch;
+}
+
+/// A σ_ij over `divisor`.
+mpq_class exact_load(const Packing& packing, double stress, double divisor) {
+  const Vector2& a = *packing.cell.a;
+  const Vector2& b = *packing.cell.b;
+  const mpq_class area = mpq_class(a.x()) * mpq_class(b.y()) - mpq_class(a.y()) * mpq_class(b.x());
+  return abs(area) * mpq_class(stress) / mpq_class(divisor);
+}
 
 /// R n̂ + T t̂ on a, the opposite on b, and T times its arm on both torques; −R and −T on a loaded wall.
 Entries force_entries(const Packing& packing, const RowNumbers& number, const indet::Contact& contact,
@@ -126,6 +162,14 @@ Entries force_entries(const Packing& packing, const RowNumbers& number, const in
   };
   if (packing.has_equations(contact.a)) add(contact.a, 1, ends.arm_a);
   if (packing.is_free_disk(contact.b)) add(contact.b.disk_id(), -1, ends.arm_b);
+  if (packing.stress.is_imposed()) {
+    const auto& [lx, ly] = ends.branch;
+    const std::array<mpq_class, 4> parts = {fx * lx, fy * ly, fx * ly, (fx * lx + fy * ly) / 2};
+    for (int k = 0; k < 4; ++k) {
+      if (number.of_cell(k) >= 0)
+        entries.emplace_back(number.of_cell(k), -parts[static_cast<std::size_t>(k)]);
+    }
+  }
   if (contact.b.is_wall()) {
     const int along_normal = number(contact.b.wall_id(), 0);
     const int along_tangent = number(contact.b.wall_id(), 1);
@@ -195,6 +239,17 @@ ContactProblem::ContactProblem(const Packing& packing) {
       if (!std::isnan(load) && load != 0) wrench.emplace_back(number.need(WallId(w), k), mpq_class(load));
     }
   }
+  double cell_divisor = 1;
+  if (packing.stress.is_imposed()) {
+    const auto stress = packing.stress.components();
+    cell_divisor = std::ldexp(1.0, std::ilogb(packing.cell_length()));
+    compression_scale_ = cell_divisor / packing.cell_length();
+    row_of_cell_ = number.of_cell();
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+      if (row_of_cell_[k] >= 0)
+        wrench.emplace_back(row_of_cell_[k], exact_load(packing, stress[k], cell_divisor));
+    }
+  }
   row_of_ = number.all();
   row_of_wall_ = number.of_walls();
   const std::vector<ForceBound> bounds = force_bounds(packing);
@@ -221,6 +276,7 @@ ContactProblem::ContactProblem(const Packing& packing) {
     if (!contact.b.is_wall()) {
       ends.arm_b = mpq_class(packing.lever_b(ContactId(i))) / mpq_class(divisor(contact.b.disk_id()));
     }
+    if (packing.stress.is_imposed()) ends.branch = exact_branch(packing, contact, cell_divisor);
     const auto column = [&](const mpq_class& R, const mpq_class& T) {
       Entries entries = force_entries(packing, number, contact, ends, R, T);
       for (const int k : bounds_of[static_cast<std::size_t>(i)])

@@ -13,6 +13,7 @@ namespace indet::exact {
 /// they are (docs/decisions/exact-problem.md):
 ///
 ///   for each free disk:  Σ χ (R n̂ + T t̂) + m g + load = 0,   Σ l T + load_z = 0,   t̂ = (n_y, −n_x), χ = ±1
+///   for each imposed component of stress:  −Σ f_i l_j + A σ_ij = 0,   l = x_a − x_b − image · cell vectors
 ///   for each loaded wall, where it is free:  −ΣR + load_n = 0,  −ΣT + load_t = 0
 ///   for each contact:  R ≥ 0,  |T| ≤ μR
 ///   for each bound (force_bounds.h) of a force F:  F − s = lo,  F + s = hi,  F = value,  s ≥ 0
@@ -20,7 +21,8 @@ namespace indet::exact {
 /// n̂ is what is stored, also where its length is not exactly 1; products, sums and quotients are exact.
 /// Multiplying a row or an unknown by a number does not change this problem, so none of the scales of the
 /// analysis enters. Torque rows are divided by the radius; where a contact of the disk has a lever l ≠ r, by
-/// a power of two near the radius instead, so that all coefficients have finitely many binary digits.
+/// a power of two near the radius instead, so that all coefficients have finitely many binary digits. Rows of
+/// stress are divided by a power of two near the length of the cell (Packing::cell_length).
 ///
 /// Unknowns are strengths of cone edges, R = x₊ + x₋, T = μ (x₊ − x₋), x ≥ 0. Edge 2α is x₊ of contact α (R
 /// itself where μ = 0), edge 2α + 1 is x₋ (absent where μ = 0): the numbers of the half-planes in
@@ -35,10 +37,12 @@ class ContactProblem {
   int edges() const { return 2 * contacts() + static_cast<int>(slacks_.size()); }
   bool is_slack(int edge) const { return edge >= 2 * contacts(); }
   bool has_edge(int edge) const;
-  /// The row of an equation of a disk (0: force x, 1: force y, 2: torque) or wall (0: along the normal,
-  /// 1: along the tangent), −1 if it reads 0 = 0 or the wall is not free.
+  /// The row of an equation of a disk (0: force x, 1: force y, 2: torque), wall (0: along the normal, 1:
+  /// along the tangent) or the cell (the component of stress), −1 if it reads 0 = 0, the wall is not free,
+  /// the component not imposed.
   int row(Body body, int component) const {
     const auto k = static_cast<std::size_t>(component);
+    if (body.is_cell()) return row_of_cell_[k];
     return body.is_wall() ? row_of_wall_[static_cast<std::size_t>(body.wall_id().value())][k]
                           : row_of_[static_cast<std::size_t>(body.disk_id().value())][k];
   }
@@ -47,6 +51,8 @@ class ContactProblem {
   /// What the torque row of a disk is divided by (its radius, or the power of two in its place), over its
   /// radius. A motion has this times rω in that row.
   double spin_scale(DiskId disk) const { return spin_scale_[static_cast<std::size_t>(disk.value())]; }
+  /// The same of rows of stress: their divisor over the cell's length.
+  double compression_scale() const { return compression_scale_; }
 
   /// The rank of the equations modulo a prime near 2^62. It is a lower bound of the exact rank, and equals it
   /// but for an accident of probability below 1e-12.
@@ -83,7 +89,9 @@ class ContactProblem {
 
   std::vector<std::array<int, 3>> row_of_;
   std::vector<std::array<int, 2>> row_of_wall_;
+  std::array<int, 4> row_of_cell_{-1, -1, -1, -1};
   std::vector<double> spin_scale_;
+  double compression_scale_ = 1;
   std::vector<Contact> contacts_;
   int first_bound_ = 0;                ///< row
   std::vector<IntegerColumn> slacks_;  ///< of edges 2M, 2M + 1, …

@@ -88,6 +88,8 @@ BalanceReport report_balance(const ImportedPacking& imported) {
 
   const SceneForces forces = packing.simulated_forces();
   report_residuals(packing, forces, knowledge, report);
+  if (report.forces_known && packing.stress.is_imposed())
+    report.stress_residual = stress_residual(packing, forces).cwiseAbs().maxCoeff();
   const CoulombCount coulomb = count_coulomb(packing, forces, tolerance::kSliding);
   report.coulomb_violations = coulomb.violated;
   report.worst_violation = coulomb.worst_violation;

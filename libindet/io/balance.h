@@ -20,6 +20,7 @@ struct BalanceReport {
   DiskId worst_torque;
   double wall_residual = 0;  ///< Largest net force on a loaded wall, where it is free.
   WallId worst_wall;
+  double stress_residual = 0;  ///< Largest of stress_residual (contact_state.h), if all forces are known.
   int coulomb_violations = 0;  ///< Contacts with R < −ε or |T| > μR + ε, ε = tolerance::kSliding.
   double worst_violation = 0;  ///< Largest of −R and |T| − μR.
   int sliding = 0;             ///< Non-transmitting contacts count twice.

@@ -1,7 +1,6 @@
 #include "libindet/io/csv_reader.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "libindet/io/csv_table.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/import_format.h"
+#include "libindet/io/scene_file.h"
 #include "libindet/packing/cancelling_loads.h"
 #include "libindet/packing/force_bounds.h"
 #include "libindet/packing/validate.h"
@@ -26,62 +26,6 @@ namespace indet {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// scene.toml
-struct Scene {
-  std::string source;
-  Vector2 gravity{0, -1};
-  double force_unit = 0;
-  std::optional<double> mu;
-};
-
-[[noreturn]] void fail(const std::string& source, const toml::node& node, const std::string& reason) {
-  throw InputError(fmt::format("{}:{}: {}", source, node.source().begin.line, reason));
-}
-
-double scene_number(const std::string& source, const std::string& key, const toml::node& node) {
-  const auto value = node.value<double>();
-  if (!value) fail(source, node, fmt::format("{} must be a number", key));
-  if (!std::isfinite(*value)) fail(source, node, fmt::format("{} must be finite", key));
-  return *value;
-}
-
-Scene read_scene(const fs::path& path) {
-  Scene scene;
-  scene.source = path.string();
-  if (!fs::exists(path)) return scene;
-  const auto text = read_text(path);
-  toml::table table;
-  try {
-    table = toml::parse(*text, scene.source);
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: {}", scene.source, error.source().begin.line, error.description()));
-  }
-  for (const auto& [key_view, node] : table) {
-    const std::string key(key_view.str());
-    if (key == "gravity") {
-      const toml::array* array = node.as_array();
-      if (array == nullptr || array->size() != 2) {
-        fail(scene.source, node, "gravity must be a list of two numbers, e.g. [0, -1]");
-      }
-      scene.gravity = {scene_number(scene.source, key, *array->get(0)),
-                       scene_number(scene.source, key, *array->get(1))};
-    } else if (key == "force_unit") {
-      scene.force_unit = scene_number(scene.source, key, node);
-      if (!(scene.force_unit > 0)) {
-        fail(scene.source, node, fmt::format("force_unit must be positive, but is {}", scene.force_unit));
-      }
-    } else if (key == "mu") {
-      scene.mu = scene_number(scene.source, key, node);
-      if (*scene.mu < 0) {
-        fail(scene.source, node, fmt::format("mu must not be negative, but is {}", *scene.mu));
-      }
-    } else {
-      fail(scene.source, node, fmt::format("{} is unknown; the known keys are gravity, force_unit, mu", key));
-    }
-  }
-  return scene;
-}
 
 /// 0 or 1; empty: 0.
 bool flag(const Table& table, int row, const char* column) {
@@ -166,13 +110,29 @@ std::pair<DiskId, Body> read_bodies(const Table& table, int row, const IdMap& di
       table.fail(row, "b", fmt::format("{} is wall {}, but there is no such wall", b, wall));
     return {id_a, Body::wall(WallId(wall_b->second))};
   }
-  if (a == b) table.fail(row, fmt::format("disk {} cannot touch itself", a));
   const auto disk_b = disks.find(b);
   if (disk_b == disks.end()) table.fail(row, "b", fmt::format("there is no disk {}", b));
   return {id_a, Body::disk(DiskId(disk_b->second))};
 }
 
-double read_friction(const Table& table, int row, const Scene& scene) {
+/// Where none is given, the nearest one.
+Image read_image(const Table& table, int row, const Packing& packing, const Contact& contact) {
+  if (table.is_empty(row, "image_x") != table.is_empty(row, "image_y"))
+    table.fail(row, "image_x and image_y must both be given, or both be empty");
+  const bool is_self = contact.b == Body::disk(contact.a);
+  Image image{0, 0};
+  if (!table.is_empty(row, "image_x")) {
+    image = {table.integer(row, "image_x"), table.integer(row, "image_y")};
+  } else if (!contact.b.is_wall() && !is_self) {
+    image = nearest_image(packing, contact.a, contact.b.disk_id());
+  }
+  if (is_self && image == Image{0, 0})
+    table.fail(row, fmt::format("disk {} cannot touch itself{}", packing[contact.a].id,
+                                packing.cell.is_periodic() ? "; which image of it is not given" : ""));
+  return image;
+}
+
+double read_friction(const Table& table, int row, const SceneFile& scene) {
   if (!table.is_empty(row, "mu")) return table.number(row, "mu");
   if (!scene.mu) {
     table.fail(row, fmt::format("the friction is not given, neither in column mu nor as mu = … in {}",
@@ -188,17 +148,17 @@ struct ContactRows {
 };
 
 ContactRows read_contacts(const Table& table, const Packing& packing, const IdMap& disks, const IdMap& walls,
-                          const Scene& scene) {
+                          const SceneFile& scene) {
   table.require({"a", "b"});
-  table.allow_only(
-      {"a", "b", "nx", "ny", "mu", "R", "T", "gap", "lever_a", "lever_b", "R_lo", "R_hi", "T_lo", "T_hi"});
+  table.allow_only({"a", "b", "nx", "ny", "mu", "R", "T", "gap", "lever_a", "lever_b", "R_lo", "R_hi", "T_lo",
+                    "T_hi", "image_x", "image_y"});
   ContactRows result;
-  std::map<std::pair<std::int32_t, std::int32_t>, int> rows;
+  std::map<ContactKey, int> rows;
   for (int row = 0; row < table.rows(); ++row) {
     Contact contact;
     std::tie(contact.a, contact.b) = read_bodies(table, row, disks, walls);
-    const std::pair<std::int32_t, std::int32_t> key = std::minmax({contact.a.value(), contact.b.code()});
-    const auto [earlier, is_new] = rows.emplace(key, row);
+    contact.image = read_image(table, row, packing, contact);
+    const auto [earlier, is_new] = rows.emplace(contact_key(contact), row);
     if (!is_new) {
       table.fail(row,
                  fmt::format("this contact is given twice, first in line {}", table.line(earlier->second)));
@@ -207,13 +167,14 @@ ContactRows read_contacts(const Table& table, const Packing& packing, const IdMa
       table.fail(row, "nx and ny must both be given, or both be empty");
     }
     try {
-      contact.normal = table.is_empty(row, "nx") ? geometric_normal(packing, contact.a, contact.b)
-                                                 : Vector2(table.number(row, "nx"), table.number(row, "ny"));
+      contact.normal = table.is_empty(row, "nx")
+                           ? geometric_normal(packing, contact.a, contact.b, contact.image)
+                           : Vector2(table.number(row, "nx"), table.number(row, "ny"));
     } catch (const InputError& error) {
       if (!table.is_empty(row, "nx")) throw;
       table.fail(row, error.what());
     }
-    contact.gap = table.number_or(row, "gap", geometric_gap(packing, contact.a, contact.b));
+    contact.gap = table.number_or(row, "gap", geometric_gap(packing, contact.a, contact.b, contact.image));
     contact.mu = read_friction(table, row, scene);
     contact.R = table.number_or(row, "R", kNaN);
     contact.T = table.number_or(row, "T", contact.mu == 0 && std::isfinite(contact.R) ? 0 : kNaN);
@@ -254,15 +215,25 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   }
   ImportedPacking imported;
   Packing& packing = imported.packing;
-  const Scene scene = read_scene(folder / "scene.toml");
+  const SceneFile scene = read_scene_file(folder / "scene.toml");
   packing.gravity = scene.gravity;
   packing.named_force_unit = scene.force_unit;
+  packing.cell = scene.cell;
+  packing.stress = scene.stress;
+  imported.stress_is_named = scene.names_stress;
   packing.origin.protocol = "import csv";
 
+  const auto fail_in_scene = [&](PackingPart part, const char* name, int line) {
+    const auto defect = find_defect(packing);
+    if (defect && defect->part == part)
+      throw InputError(fmt::format("{}:{}: {}: {}", scene.source, line, name, defect->reason));
+  };
   // Each part is checked before the next one refers to it: a normal needs sound positions.
   IdMap disk_ids;
   const Table disks = read_csv(folder / "disks.csv");
   packing.disks = read_disks(disks, disk_ids);
+  fail_in_scene(PackingPart::kCell, "cell", scene.cell_line);
+  fail_in_scene(PackingPart::kStress, "stress", scene.stress_line);
   fail_at_defect(packing, PackingPart::kDisk, disks);
   IdMap wall_ids;
   if (fs::exists(folder / "walls.csv")) {
@@ -281,7 +252,8 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   try {
     for (std::string& note : take_out_cancelling_loads(packing)) imported.warnings.push_back(std::move(note));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", (folder / "walls.csv").string(), error.what()));
+    throw InputError(fmt::format(
+        "{}: {}", (folder / (packing.cell.is_full() ? "disks.csv" : "walls.csv")).string(), error.what()));
   }
   warn_of_large_gaps(imported);
   int outside = 0;

@@ -11,6 +11,7 @@
 #include "libindet/base/error.h"
 #include "libindet/io/contact_columns.h"
 #include "libindet/io/file_ids.h"
+#include "libindet/io/scene_file.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -24,7 +25,7 @@ constexpr std::string_view kLoadColumns = ",load_n,load_t";
 constexpr std::string_view kContactsBegin = "a,b,nx,ny,mu,R,T,gap";
 constexpr std::string_view kLeverColumns = ",lever_a,lever_b";
 constexpr std::string_view kBoundColumns = ",R_lo,R_hi,T_lo,T_hi";
-constexpr std::string_view kSceneBegin = "gravity = [";
+constexpr std::string_view kImageColumns = ",image_x,image_y";
 constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu";
 
 /// The shortest text that reads back as the same number; empty for NaN.
@@ -45,19 +46,23 @@ std::string rare_columns(const Packing& packing) {
   std::string text;
   if (packing.has_levers()) text += kLeverColumns;
   if (packing.has_bounds()) text += kBoundColumns;
+  if (packing.cell.is_periodic()) text += kImageColumns;
   return text;
 }
+
 std::string rare_fields(const Packing& packing, const Contact& c) {
   std::string text;
   if (packing.has_levers()) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
   if (packing.has_bounds()) {
     for (const double bound : {c.R_lo, c.R_hi, c.T_lo, c.T_hi}) text += "," + bound_field(bound);
   }
+  if (packing.cell.is_periodic()) text += fmt::format(",{},{}", c.image[0], c.image[1]);
   return text;
 }
+
 /// True if the rest of a header is rare columns and then `end`.
 bool ends_header(std::string_view rest, std::string_view end) {
-  for (const std::string_view columns : {kLeverColumns, kBoundColumns}) {
+  for (const std::string_view columns : {kLeverColumns, kBoundColumns, kImageColumns}) {
     if (rest.starts_with(columns)) rest.remove_prefix(columns.size());
   }
   return rest.starts_with(end);
@@ -68,6 +73,14 @@ void begin_table(std::string& text, std::string_view header, bool has_more, std:
   text += header;
   if (has_more) text += more;
   text += '\n';
+}
+
+/// What follows the other columns of a contact where the packing has it.
+std::string rare_fields(const Packing& packing, const Contact& c) {
+  std::string text;
+  if (packing.has_levers()) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
+  if (packing.cell.is_periodic()) text += fmt::format(",{},{}", c.image[0], c.image[1]);
+  return text;
 }
 
 std::string disks_text(const Packing& packing, const FileIds& ids) {
@@ -112,12 +125,6 @@ std::string contacts_text(const Packing& packing, const FileIds& ids,
   return text;
 }
 
-std::string scene_text(const Packing& packing) {
-  std::string text = fmt::format("{}{}, {}]\n", kSceneBegin, packing.gravity.x(), packing.gravity.y());
-  if (packing.named_force_unit > 0) text += fmt::format("force_unit = {}\n", packing.named_force_unit);
-  return text;
-}
-
 }  // namespace
 
 void write_csv_scene(const std::filesystem::path& folder, const Packing& packing,
@@ -132,7 +139,7 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
   write_whole_file(folder / "disks.csv", disks_text(packing, ids));
   write_whole_file(folder / "walls.csv", walls_text(packing, ids));
   write_whole_file(folder / "contacts.csv", contacts_text(packing, ids, forces));
-  write_whole_file(folder / "scene.toml", scene_text(packing));
+  write_whole_file(folder / "scene.toml", scene_file_text(packing));
 }
 
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,
@@ -168,15 +175,12 @@ bool is_scene_table(std::string_view text) {
   const auto begins = [&](std::string_view header, std::string_view more) {
     if (!text.starts_with(header)) return false;
     std::string_view rest = text.substr(header.size());
-    if (!more.empty() && rest.starts_with(more)) rest.remove_prefix(more.size());
+    if (rest.starts_with(more)) rest.remove_prefix(more.size());
     return rest.starts_with('\n');
   };
   if (begins(kDisksBegin, kFixedColumn) || begins(kWallsBegin, kLoadColumns)) return true;
   if (text.starts_with(kContactsBegin)) return ends_header(text.substr(kContactsBegin.size()), "\n");
-  // One line, or two; whoever adds to them has a scene of their own.
-  if (!text.starts_with(kSceneBegin)) return false;
-  const std::string_view rest = text.substr(text.find('\n') + 1);
-  return rest.empty() || (rest.starts_with("force_unit = ") && rest.find('\n') + 1 == rest.size());
+  return is_scene_file(text);
 }
 
 bool is_contact_table(std::string_view text) {

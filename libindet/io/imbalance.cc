@@ -69,6 +69,7 @@ class CauseSearch {
   void add(double left, const std::string& text) { causes_.push_back({text, left <= tolerance_}); }
 
   void look_for_gravity() {
+    if (packing_.cell.is_full()) return;  // where no gravity can be
     const double unit = packing_.force_unit();
     std::vector<double> x, y;
     for (int i = 0; i < packing_.disk_count(); ++i) {
@@ -94,6 +95,7 @@ class CauseSearch {
   }
 
   void look_for_walls() {
+    if (packing_.cell.is_full()) return;  // which has no sides
     const double near = tolerance::kAtSide * packing_.max_radius();
     Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity());
     Vector2 high = -low;

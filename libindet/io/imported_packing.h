@@ -18,6 +18,7 @@ struct ImportedPacking {
   double rounding = 0;     ///< Relative rounding of the numbers in the file where they were printed with few
                            ///< digits (5e-6 for six); 0 for full precision.
   std::vector<int> types;  ///< Of the material of each disk, −1 if it has none; empty if the format has none.
+  bool stress_is_named = false;       ///< The files say which stress is imposed, or that none is.
   std::optional<LeverChoice> levers;  ///< What choose_levers found; none if the file has levers of its own.
 };
 

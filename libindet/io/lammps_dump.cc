@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct FrameHeader {
   std::array<double, 3> low{}, high{};
   std::array<bool, 3> periodic{};
   bool tilted = false;
+  std::array<std::array<double, 3>, 3> edges{};
   int columns_line = 0;
   std::vector<std::string> columns;
   LineReader body{""};
@@ -74,7 +77,8 @@ class DumpIndex {
   void read_box(const std::vector<std::string_view>& words, FrameHeader& frame) {
     const bool general = words.size() > 4 && words[3] == "abc" && words[4] == "origin";
     frame.tilted = general || (words.size() > 3 && words[3] == "xy");
-    const std::size_t count = general ? 4 : 2;
+    const std::size_t count = general ? 4 : frame.tilted ? 3 : 2;
+    std::array<double, 3> tilts{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       need_line();
       const auto fields = split_words(line_);
@@ -82,11 +86,13 @@ class DumpIndex {
       bool valid = fields.size() >= count;
       for (std::size_t i = 0; valid && i < count; ++i) valid = parse_number(fields[i], &numbers[i]);
       if (!valid) {
-        fail(general ? "an edge vector of the box and a component of its origin must be four numbers"
-                     : "the bounds of the box must be two numbers");
+        fail(general        ? "an edge vector of the box and a component of its origin must be four numbers"
+             : frame.tilted ? "the bounds of a tilted box and its tilt must be three numbers"
+                            : "the bounds of the box must be two numbers");
       }
       if (general) {
         for (std::size_t i = 0; i < 3; ++i) {
+          frame.edges[axis][i] = numbers[i];
           (numbers[i] < 0 ? frame.low : frame.high)[i] += numbers[i];
         }
         frame.low[axis] += numbers[3];
@@ -94,11 +100,22 @@ class DumpIndex {
       } else {
         frame.low[axis] = numbers[0];
         frame.high[axis] = numbers[1];
+        frame.edges[axis][axis] = numbers[1] - numbers[0];
+        tilts[axis] = numbers[2];
       }
       // The boundary flags are the last three words; dumps of old versions have none.
       const std::string_view flag = words.size() >= 6 ? words[words.size() - 3 + axis] : std::string_view();
       frame.periodic[axis] = flag.starts_with('p');
     }
+    if (general) return;
+    // The bounds are those of all points of the tilted box: a = (lx, 0, 0), b = (xy, ly, 0), c = (xz, yz,
+    // lz).
+    const auto [xy, xz, yz] = tilts;
+    frame.edges[0][0] -= std::max({0.0, xy, xz, xy + xz}) - std::min({0.0, xy, xz, xy + xz});
+    frame.edges[1][0] = xy;
+    frame.edges[1][1] -= std::abs(yz);
+    frame.edges[2][0] = xz;
+    frame.edges[2][1] = yz;
   }
 
   FrameHeader read_frame() {
@@ -167,9 +184,13 @@ DumpFrame read_dump_frame(const std::filesystem::path& path, std::optional<std::
         fmt::format("{}: the frame of timestep {} has only {} of its {} rows; the file is truncated",
                     path.string(), header.timestep, header.found, header.rows));
   }
-  DumpFrame frame{header.timestep, header.low,
-                  header.high,     header.periodic,
-                  header.tilted,   Table(path.string(), text, header.columns_line, header.columns)};
+  DumpFrame frame{header.timestep,
+                  header.low,
+                  header.high,
+                  header.periodic,
+                  header.tilted,
+                  header.edges,
+                  Table(path.string(), text, header.columns_line, header.columns)};
   LineReader lines = header.body;
   std::string_view line;
   while (frame.table.rows() < header.rows && lines.next(&line)) {
@@ -182,6 +203,21 @@ DumpFrame read_dump_frame(const std::filesystem::path& path, std::optional<std::
 bool DumpPair::is_periodic(const Plane& plane) const {
   return atoms.periodic[static_cast<std::size_t>(plane.first)] ||
          atoms.periodic[static_cast<std::size_t>(plane.second)];
+}
+
+Cell DumpPair::cell(const Plane& plane) const {
+  Cell cell;
+  for (const int axis : {plane.first, plane.second}) {
+    if (!atoms.periodic[static_cast<std::size_t>(axis)]) continue;
+    const auto& edge = atoms.edges[static_cast<std::size_t>(axis)];
+    if (edge[static_cast<std::size_t>(plane.normal)] != 0) {
+      throw InputError(fmt::format("{}: the edge ({}, {}, {}) of the periodic box leaves the plane {}",
+                                   atoms.table.source(), edge[0], edge[1], edge[2], plane.name()));
+    }
+    (axis == plane.first ? cell.a : cell.b) =
+        Vector2(edge[static_cast<std::size_t>(plane.first)], edge[static_cast<std::size_t>(plane.second)]);
+  }
+  return cell;
 }
 
 DumpPair read_dumps(const DumpFiles& files) {

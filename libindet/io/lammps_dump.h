@@ -8,6 +8,7 @@
 
 #include "libindet/io/plane.h"
 #include "libindet/io/table.h"
+#include "libindet/packing/cell.h"
 
 namespace indet {
 
@@ -18,8 +19,9 @@ struct DumpFrame {
   /// periodic there if the flag is set.
   std::array<double, 3> low{}, high{};
   std::array<bool, 3> periodic{};
-  bool tilted = false;  ///< The box is a parallelepiped.
-  Table table;          ///< The columns are named as in the dump.
+  bool tilted = false;                           ///< The box is a parallelepiped.
+  std::array<std::array<double, 3>, 3> edges{};  ///< The edge vectors of the box.
+  Table table;                                   ///< The columns are named as in the dump.
 };
 
 /// Reads the last frame of a dump, or that of `timestep`. The header of a frame is
@@ -43,6 +45,8 @@ struct DumpFiles {
 struct DumpPair {
   DumpFrame atoms, contacts;
   bool is_periodic(const Plane& plane) const;  ///< Along an axis of the plane.
+  /// The edges of the box in the plane along which it is periodic. Throws InputError if one leaves the plane.
+  Cell cell(const Plane& plane) const;
 };
 
 /// Throws InputError like read_dump_frame, or if the frames are of different timesteps.

@@ -53,11 +53,12 @@ ImportedPacking read_lammps(const DumpFiles& files, const ImportSettings& settin
   }
   const DumpPair dumps = read_dumps(files);
   PackingBuilder builder("import lammps", "atom", files.atoms.string(), settings);
-  if (dumps.is_periodic(settings.plane)) builder.set_periodic();
   const std::vector<int> rows = read_lammps_atoms(dumps.atoms, names, settings.plane, builder);
+  const Cell cell = dumps.cell(settings.plane);
+  builder.set_cell(cell);
   const double odd_parts = read_pairs(dumps.contacts.table, names, builder);
   read_lammps_walls(dumps.atoms, names, settings.plane, rows, builder);
-  ImportedPacking imported = builder.build({0, -1});
+  ImportedPacking imported = builder.build({0, cell.is_full() ? 0.0 : -1.0});
   warn_of_rounding(imported, dumps, names, odd_parts);
   warn_of_atoms_outside(imported, dumps.atoms, settings.plane);
   return imported;

@@ -124,7 +124,7 @@ void read_lammps_walls(const DumpFrame& frame, const LammpsColumns& names, const
       builder.add_contact(contact, place);
     }
   }
-  if (packing.wall_count() == 0) {
+  if (packing.wall_count() == 0 && !packing.cell.is_full()) {
     builder.warn(fmt::format(
         "{}: no wall was read, so that forces of walls are missing if there are any; give each fix wall/gran "
         "the keyword contacts, and dump its columns f_NAME[*]",

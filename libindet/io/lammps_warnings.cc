@@ -68,7 +68,8 @@ void warn_of_atoms_outside(ImportedPacking& imported, const DumpFrame& atoms, co
     const auto is_outside = [&](double x, int axis) {
       const double low = atoms.low[static_cast<std::size_t>(axis)];
       const double high = atoms.high[static_cast<std::size_t>(axis)];
-      return low < high && (x < low || x > high);
+      const bool periodic = atoms.periodic[static_cast<std::size_t>(axis)];  // an image is inside
+      return !periodic && low < high && (x < low || x > high);
     };
     if (is_outside(position.x(), plane.first) || is_outside(position.y(), plane.second)) outside.insert(i);
     for (const Wall& wall : packing.walls) {

@@ -16,18 +16,43 @@
 namespace indet {
 namespace {
 
-constexpr std::string_view kComment =
-    "Properties=species:S:1:pos:R:3:id:I:1:radius:R:1:mass:R:1 pbc=\"F F F\" writer=indet\n";
+constexpr std::string_view kProperties = "Properties=species:S:1:pos:R:3:id:I:1:radius:R:1:mass:R:1 pbc=\"";
+constexpr std::string_view kWriter = " writer=indet\n";
 constexpr std::string_view kBondColumns =
     "ITEM: ENTRIES index ParticleIdentifiers.A ParticleIdentifiers.B mu gap R_mg T_mg";
 
-/// Of the type of a particle: X a disk, F a fixed one, W the foot of a contact with a wall.
-char species_of(const VtkGrid& grid, std::size_t point) {
+/// Of the type of a particle: X a disk, F a fixed one, W the foot of a contact with a wall, I the image of a
+/// disk.
+char species_of(const VtkGrid& grid, std::size_t point, std::size_t disks) {
   if (grid.body[point] < 0) return 'W';
+  if (point >= disks) return 'I';
   return grid.fixed[point] != 0 ? 'F' : 'X';
 }
 
-/// The ids of the points of a grid: disks, then feet.
+/// The second line of the particles.
+std::string comment(const Packing& packing) {
+  const auto& [a, b] = packing.cell;
+  std::string text = fmt::format("{}{} {} F\"", kProperties, a ? 'T' : 'F', b ? 'T' : 'F');
+  if (packing.cell.is_periodic()) {
+    Vector2 low = packing.disks.empty() ? Vector2(0, 0) : packing.disks.front().position;
+    Vector2 high = low;
+    for (const Disk& disk : packing.disks) {
+      low = low.cwiseMin(disk.position);
+      high = high.cwiseMax(disk.position);
+    }
+    const double extent = (high - low).norm();
+    const auto across = [&](const Vector2& v) -> Vector2 {
+      return (extent + 2 * packing.max_radius()) * Vector2(-v.y(), v.x()).normalized();
+    };
+    const Vector2 first = a ? *a : Vector2(-across(*b));
+    const Vector2 second = b ? *b : across(*a);
+    text += fmt::format(" Lattice=\"{} {} 0 {} {} 0 0 0 {}\"", first.x(), first.y(), second.x(), second.y(),
+                        2 * packing.max_radius());
+  }
+  return text + std::string(kWriter);
+}
+
+/// The ids of the points of a grid: disks, then feet and images.
 std::vector<std::int64_t> particle_ids(const Packing& packing, const VtkGrid& grid) {
   const FileIds ids(packing);
   std::vector<std::int64_t> all(ids.disks.begin(), ids.disks.end());
@@ -58,13 +83,13 @@ std::string box_text(const VtkGrid& grid) {
 void write_particles(const std::filesystem::path& path, const Packing& packing) {
   const VtkGrid grid = vtk_grid(packing);
   const std::vector<std::int64_t> ids = particle_ids(packing, grid);
-  std::string text = fmt::format("{}\n{}", grid.point_count(), kComment);
+  std::string text = fmt::format("{}\n{}", grid.point_count(), comment(packing));
   for (std::size_t i = 0; i < grid.point_count(); ++i) {
-    const bool is_disk = grid.body[i] >= 0;
-    text +=
-        fmt::format("{} {} {} 0 {} {} {}\n", species_of(grid, i), grid.points[3 * i], grid.points[3 * i + 1],
-                    ids[i], is_disk ? grid.radius[i] : kFootRadius * packing.max_radius(),
-                    is_disk ? packing[DiskId(grid.body[i])].mass : 0);
+    const bool is_disk = i < packing.disks.size();
+    text += fmt::format("{} {} {} 0 {} {} {}\n", species_of(grid, i, packing.disks.size()),
+                        grid.points[3 * i], grid.points[3 * i + 1], ids[i],
+                        is_disk ? grid.radius[i] : kFootRadius * packing.max_radius(),
+                        is_disk ? packing[DiskId(grid.body[i])].mass : 0);
   }
   write_whole_file(path, text);
 }
@@ -111,7 +136,9 @@ std::filesystem::path bonds_path_of(const std::filesystem::path& particles) {
 
 bool is_particle_file(std::string_view text) {
   const std::size_t end = text.find('\n');
-  return end != std::string_view::npos && text.substr(end + 1).starts_with(kComment);
+  if (end == std::string_view::npos) return false;
+  const std::string_view second = text.substr(end + 1);
+  return second.starts_with(kProperties) && second.substr(0, second.find('\n') + 1).ends_with(kWriter);
 }
 
 bool is_bond_file(std::string_view text) {

@@ -12,10 +12,12 @@ namespace indet {
 /// A packing for OVITO, as two text files: particles as extended XYZ, bonds as LAMMPS writes them with `dump
 /// local`. Both have one frame.
 ///
-/// Particles are the disks (species X) and, after them, the feet of contacts with walls (species W), as in
-/// io/vtk_grid.h; columns species, pos (x, y, 0), id, radius, mass. The ids of disks are their own where
-/// these fit (io/file_ids.h), those of feet the next ones. A foot has mass 0 and the radius kFootRadius
-/// r_max: OVITO takes a radius of 0 for an unknown one.
+/// Particles are the disks (species X) and, after them, the feet of contacts with walls (species W) and the
+/// images that contacts across a periodic boundary are with (species I), as in io/vtk_grid.h; columns
+/// species, pos (x, y, 0), id, radius, mass. The ids of disks are their own where these fit (io/file_ids.h),
+/// those of feet and images the next ones. These have mass 0 and the radius kFootRadius r_max: OVITO takes a
+/// radius of 0 for an unknown one. A cell is the Lattice, with pbc; where one of its vectors is missing, a
+/// perpendicular one as long as the packing stands in its place, and pbc is F there.
 void write_particles(const std::filesystem::path& path, const Packing& packing);
 inline constexpr double kFootRadius = 0.02;
 

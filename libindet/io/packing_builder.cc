@@ -11,6 +11,7 @@
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/equilibrium/contact_state.h"
 
 namespace indet {
 namespace {
@@ -94,17 +95,19 @@ DiskId PackingBuilder::disk(std::int32_t id, const Place& place) const {
 }
 
 Contact PackingBuilder::contact(DiskId a, Body b, const Place& place) const {
-  if (b == Body::disk(a)) place.fail(fmt::format("{} {} cannot touch itself", noun_, packing_[a].id));
+  if (b == Body::disk(a) && !packing_.cell.is_periodic())
+    place.fail(fmt::format("{} {} cannot touch itself", noun_, packing_[a].id));
   Contact contact;
   contact.a = a;
   contact.b = b;
+  if (!b.is_wall()) contact.image = nearest_image(packing_, a, b.disk_id());
   contact.mu = kNaN;
   try {
-    contact.normal = geometric_normal(packing_, a, b);
+    contact.normal = geometric_normal(packing_, a, b, contact.image);
   } catch (const InputError& error) {
     place.fail(error.what());
   }
-  contact.gap = geometric_gap(packing_, a, b);
+  contact.gap = geometric_gap(packing_, a, b, contact.image);
   return contact;
 }
 
@@ -133,8 +136,7 @@ void PackingBuilder::add_contact(const Contact& contact, const Place& place) {
     ++imported_.without_equations;
     return;
   }
-  const std::pair<std::int32_t, std::int32_t> key = std::minmax({contact.a.value(), contact.b.code()});
-  const auto [earlier, is_new] = first_.emplace(key, FoundContact{contact, place});
+  const auto [earlier, is_new] = first_.emplace(contact_key(contact), FoundContact{contact, place});
   if (!is_new) {
     const FoundContact& before = earlier->second;
     if (!same_force(before.contact, contact)) {
@@ -192,8 +194,8 @@ void PackingBuilder::sort_contacts() {
   // Contacts of two disks first, then wall by wall.
   const auto key = [](const FoundContact& found) {
     const Contact& c = found.contact;
-    return c.b.is_wall() ? std::tuple(1, c.b.wall_id().value(), c.a.value())
-                         : std::tuple(0, c.a.value(), c.b.code());
+    return c.b.is_wall() ? std::tuple(1, c.b.wall_id().value(), c.a.value(), c.image)
+                         : std::tuple(0, c.a.value(), c.b.code(), c.image);
   };
   std::sort(contacts_.begin(), contacts_.end(),
             [&](const FoundContact& left, const FoundContact& right) { return key(left) < key(right); });
@@ -207,6 +209,10 @@ void PackingBuilder::find_defects() const {
   switch (defect->part) {
     case PackingPart::kScene:
       throw InputError(fmt::format("{}: {}", source_, defect->reason));
+    case PackingPart::kCell:
+      throw InputError(fmt::format("{}: the periodic box: {}", source_, defect->reason));
+    case PackingPart::kStress:
+      throw InputError(fmt::format("{}: stress: {}", source_, defect->reason));
     case PackingPart::kDisk:
       disk_places_[index].fail(defect->reason);
     case PackingPart::kWall:
@@ -234,17 +240,40 @@ void PackingBuilder::warn_of_what_was_left_out() {
   }
 }
 
+void PackingBuilder::drop_idle_directions() {
+  for (const int k : {0, 1}) {
+    auto& vector = k == 0 ? packing_.cell.a : packing_.cell.b;
+    const auto crosses = [&](const Contact& c) { return c.image[static_cast<std::size_t>(k)] != 0; };
+    if (!vector || std::any_of(packing_.contacts.begin(), packing_.contacts.end(), crosses)) continue;
+    warn(fmt::format(
+        "{}: the box is periodic along ({:.6g}, {:.6g}), but no contact crosses that boundary, so "
+        "it is left out",
+        source_, vector->x(), vector->y()));
+    vector.reset();
+  }
+}
+
+void PackingBuilder::require_force_unit() const {
+  if (!packing_.gravity.isZero() || settings_.force_unit > 0) return;
+  std::string example;
+  if (packing_.cell.is_full() && packing_.has_simulated_forces()) {
+    const Eigen::Matrix2d stress = contact_stress(packing_, packing_.simulated_forces());
+    example = fmt::format("; the pressure times the largest diameter is {:.3g}",
+                          std::abs(stress.trace()) * packing_.max_radius());
+  }
+  throw InputError(
+      fmt::format("{}: there is no gravity, so that no mean weight can be the unit of printed forces; name a "
+                  "unit with --force-unit F (the choice does not change the ranges){}",
+                  source_, example));
+}
+
 ImportedPacking PackingBuilder::build(const Vector2& fallback) {
   packing_.gravity = settings_.gravity.value_or(fallback);
-  if (packing_.gravity.isZero() && settings_.force_unit == 0) {
-    throw InputError(fmt::format(
-        "{}: there is no gravity, so that no mean weight can be the unit of printed forces; name a "
-        "unit with --force-unit F (the choice does not change the ranges)",
-        source_));
-  }
   check_friction_names();
   set_friction();
   sort_contacts();
+  drop_idle_directions();
+  require_force_unit();
   find_defects();
   warn_of_what_was_left_out();
   warn_of_large_gaps(imported_);

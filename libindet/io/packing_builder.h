@@ -48,7 +48,8 @@ class PackingBuilder {
   int type(DiskId disk) const { return types_[static_cast<std::size_t>(disk.value())]; }
 
   /// A contact with normal and gap from the positions, NaN for μ (which then follows from the rule), R and T.
-  /// Throws InputError if a disk touches itself or two centres coincide.
+  /// In a cell it is with the nearest image of b (but not with a itself). Throws InputError if a disk touches
+  /// itself or two centres coincide.
   Contact contact(DiskId a, Body b, const Place& place) const;
   /// Sets R and T to the projections on n̂ and t̂ of the force on a.
   static void project(Contact& contact, const Vector2& force);
@@ -56,14 +57,18 @@ class PackingBuilder {
   /// it was given before with another force.
   void add_contact(const Contact& contact, const Place& place);
 
-  /// The box is periodic: what seems to push across a distance may do so across a boundary.
+  /// Contacts are with the nearest images of disks. Precondition: close_disks(), no contact yet.
+  void set_cell(const Cell& cell) { packing_.cell = cell; }
+  /// The box is periodic, but the format does not tell how: what seems to push across a distance may do so
+  /// across a boundary.
   void set_periodic() { periodic_ = true; }
   void warn(std::string text) { imported_.warnings.push_back(std::move(text)); }
   const Packing& packing() const { return imported_.packing; }
 
-  /// The packing, valid, with warnings about what was left out. `fallback`: the gravity where the settings
-  /// name none. Throws InputError, also if a contact has no friction, the friction names a wall or a pair of
-  /// types that no contact has, or there is neither gravity nor a unit of force.
+  /// The packing, valid, with warnings about what was left out. Directions of the cell that no contact
+  /// crosses are left out too. `fallback`: the gravity where the settings name none. Throws InputError, also
+  /// if a contact has no friction, the friction names a wall or a pair of types that no contact has, or there
+  /// is neither gravity nor a unit of force.
   ImportedPacking build(const Vector2& fallback);
 
  private:
@@ -81,6 +86,8 @@ class PackingBuilder {
   void check_friction_names() const;
   void set_friction();
   void sort_contacts();
+  void drop_idle_directions();
+  void require_force_unit() const;
   void find_defects() const;
   void warn_of_what_was_left_out();
   std::string bodies_of(const Contact& contact) const;
@@ -95,7 +102,7 @@ class PackingBuilder {
   std::vector<std::vector<std::string>> wall_names_;
   std::unordered_map<std::int32_t, int> index_of_id_;
   std::vector<FoundContact> contacts_;
-  std::map<std::pair<std::int32_t, std::int32_t>, FoundContact> first_;  ///< By the pair of bodies.
+  std::map<ContactKey, FoundContact> first_;  ///< By bodies and image.
   bool periodic_ = false;
   int apart_ = 0;  ///< Contacts that neither touch nor push.
   Place apart_place_, repeated_place_;

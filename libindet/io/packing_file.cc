@@ -1,6 +1,7 @@
 #include "libindet/io/packing_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -62,9 +63,6 @@ void write_disks(Hdf5File& file, const std::vector<Disk>& disks) {
   const std::string group = "/particles/disks";
   const std::size_t n = disks.size();
   file.make_group(group);
-  file.make_group(group + "/box");  // H5MD: a scene without periodic boundaries
-  file.set_attribute(group + "/box", "dimension", 2);
-  file.set_attribute(group + "/box", "boundary", std::vector<std::string>{"none", "none"});
   file.write(group + "/id", column<std::int32_t>(disks, [](const Disk& d) { return d.id; }), {n},
              {"1", "name of the disk"});
   file.write(group + "/position",
@@ -152,6 +150,56 @@ void write_bounds(Hdf5File& file, const std::vector<Contact>& contacts) {
              {"force", "R_lo, R_hi, T_lo, T_hi that the scene allows, inf where it does not"});
 }
 
+/// As H5MD has it: the directions that are periodic, and their vectors.
+void write_cell(Hdf5File& file, const Cell& cell) {
+  const std::string group = "/particles/disks/box";
+  const auto boundary = [](const auto& vector) -> std::string { return vector ? "periodic" : "none"; };
+  file.make_group(group);
+  file.set_attribute(group, "dimension", 2);
+  file.set_attribute(group, "boundary", std::vector<std::string>{boundary(cell.a), boundary(cell.b)});
+  if (!cell.is_periodic()) return;
+  const Vector2 none(kNaN, kNaN);
+  const Vector2 a = cell.a.value_or(none);
+  const Vector2 b = cell.b.value_or(none);
+  file.write(group + "/edges", std::vector<double>{a.x(), a.y(), b.x(), b.y()}, {2, 2},
+             {"length", "vectors a, b of the cell, NaN where the scene is not periodic"});
+}
+
+Cell read_cell(const Hdf5File& file) {
+  Cell cell;
+  const std::string name = "/particles/disks/box/edges";
+  if (!file.has(name)) return cell;
+  const auto edges = file.read_doubles(name, {2, 2});
+  const auto is_given = [&](std::size_t k) { return !std::isnan(edges[k]) || !std::isnan(edges[k + 1]); };
+  if (is_given(0)) cell.a = Vector2(edges[0], edges[1]);
+  if (is_given(2)) cell.b = Vector2(edges[2], edges[3]);
+  return cell;
+}
+
+void write_stress(Hdf5File& file, const Stress& stress) {
+  file.make_group("/stress");
+  const auto components = stress.components();
+  for (std::size_t k = 0; k < components.size(); ++k)
+    file.set_attribute("/stress", Stress::kNames[k], components[k]);
+}
+
+Stress read_stress(const Hdf5File& file) {
+  Stress stress;
+  if (!file.has("/stress")) return stress;
+  stress.xx = file.double_attribute("/stress", "xx");
+  stress.yy = file.double_attribute("/stress", "yy");
+  stress.xy = file.double_attribute("/stress", "xy");
+  stress.pressure = file.double_attribute("/stress", "pressure");
+  return stress;
+}
+
+std::vector<std::int32_t> images(const std::vector<Contact>& contacts) {
+  std::vector<std::int32_t> values;
+  for (const Contact& contact : contacts)
+    values.insert(values.end(), contact.image.begin(), contact.image.end());
+  return values;
+}
+
 std::vector<Disk> read_disks(const Hdf5File& file) {
   const std::string group = "/particles/disks";
   const std::size_t n = file.shape(group + "/id", 1)[0];
@@ -218,6 +266,8 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
   const auto lever_b = lever("/contacts/lever_b");
   const auto bounds =
       file.has("/contacts/bounds") ? file.read_doubles("/contacts/bounds", {n, 4}) : std::vector<double>();
+  const auto image = file.has("/contacts/image") ? file.read_integers("/contacts/image", {n, 2})
+                                                 : std::vector<std::int32_t>(2 * n, 0);
   std::vector<Contact> contacts(n);
   for (std::size_t i = 0; i < n; ++i) {
     contacts[i] = Contact{.a = DiskId(a[i]),
@@ -228,7 +278,8 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
                           .R = r[i],
                           .T = t[i],
                           .lever_a = lever_a[i],
-                          .lever_b = lever_b[i]};
+                          .lever_b = lever_b[i],
+                          .image = {image[2 * i], image[2 * i + 1]}};
     if (bounds.empty()) continue;
     contacts[i].R_lo = bounds[4 * i];
     contacts[i].R_hi = bounds[4 * i + 1];
@@ -242,17 +293,24 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
 
 SchemaVersion schema_of(const Packing& packing) {
   const bool fixed = std::any_of(packing.disks.begin(), packing.disks.end(), is_fixed);
-  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls() || packing.has_bounds();
+  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls() || packing.has_bounds() ||
+                      packing.cell.is_periodic();
   return is_new ? SchemaVersion{2, 0} : SchemaVersion{};
 }
 
 void write_packing_part(Hdf5File& file, const Packing& packing) {
   write_parameters(file, packing);
   write_disks(file, packing.disks);
+  write_cell(file, packing.cell);
+  if (packing.stress.is_imposed()) write_stress(file, packing.stress);
   write_walls(file, packing.walls);
   write_contacts(file, packing.contacts);
   if (packing.has_levers()) write_levers(file, packing.contacts);
   if (packing.has_bounds()) write_bounds(file, packing.contacts);
+  if (packing.cell.is_periodic()) {
+    file.write("/contacts/image", images(packing.contacts), {packing.contacts.size(), 2},
+               {"1", "whole numbers i, j: the contact is with disk b at x_b + i a + j b"});
+  }
 }
 
 Packing read_packing(const Hdf5File& file) {
@@ -267,6 +325,8 @@ Packing read_packing(const Hdf5File& file) {
   const auto gravity = file.doubles_attribute("/parameters", "gravity", 2);
   packing.gravity = {gravity[0], gravity[1]};
   packing.named_force_unit = file.double_attribute("/parameters", "force_unit");
+  packing.cell = read_cell(file);
+  packing.stress = read_stress(file);
   packing.disks = read_disks(file);
   packing.walls = read_walls(file);
   packing.contacts = read_contacts(file);

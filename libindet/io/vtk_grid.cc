@@ -22,6 +22,8 @@ VtkGrid vtk_grid(const Packing& packing) {
       const Vector2& centre = packing[contact.a].position;
       end = add_point(centre - (centre - wall.point).dot(wall.normal) * wall.normal, 0, contact.b.code());
     }
+    if (contact.has_image())
+      end = add_point(packing[contact.a].position - packing.branch(contact), 0, contact.b.code());
     grid.connectivity.insert(grid.connectivity.end(), {contact.a.value(), end});
     grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
     grid.types.push_back(VtkGrid::kLine);

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/packing/exact_sum.h"
 
 namespace indet {
 namespace {
@@ -84,6 +87,7 @@ class Cancellation {
   std::vector<std::string> run() {
     find_free_directions();
     add_loads();
+    if (packing_.cell.is_full()) require_exact_cancelling();
     for (int w = packing_.wall_count() - 1; w >= 0; --w) take_out(WallId(w));
     return std::move(notes_);
   }
@@ -140,6 +144,22 @@ class Cancellation {
     // Only what some contact can push against holds anything: friction, for the tangent.
     hold(wall.load_n, wall.normal, "load_n");
     if (has_friction(id)) hold(wall.load_t, wall.tangent(), "load_t");
+  }
+
+  void require_exact_cancelling() {
+    std::map<int, std::array<ExactSum, 2>> sums;
+    for (int i = 0; i < packing_.disk_count(); ++i) {
+      if (!packing_.has_equations(DiskId(i)) || free_of(Body::disk(DiskId(i))).count() < 2) continue;
+      for (const std::size_t k : {0U, 1U})
+        sums[groups_.of(i)][k].add(packing_[DiskId(i)].load[static_cast<Eigen::Index>(k)]);
+    }
+    for (const auto& [group, sum] : sums) {
+      if (sum[0].value() == 0 && sum[1].value() == 0) continue;
+      throw InputError(fmt::format(
+          "in a cell that is periodic in both directions nothing takes the loads of disks (fx, fy), so they "
+          "must cancel exactly, but their sum is ({:.3g}, {:.3g}): the packing would move as a whole",
+          sum[0].value(), sum[1].value()));
+    }
   }
 
   bool touches(WallId wall) const {

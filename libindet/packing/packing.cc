@@ -1,9 +1,15 @@
 #include "libindet/packing/packing.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "libindet/base/error.h"
+#include "libindet/packing/exact_sum.h"
 
 namespace indet {
 
@@ -19,7 +25,9 @@ int Packing::expected_dimension() const {
   int directions = 0;
   for (const Wall& wall : walls)
     directions += (wall.is_free_along_normal() ? 1 : 0) + (wall.is_free_along_tangent() ? 1 : 0);
-  return 2 * contact_count() - 3 * free_disk_count() - directions;
+  directions += stress.imposed_count();
+  const bool floats = cell.is_full() && fixed_disk_count() == 0 && disk_count() > 0;
+  return 2 * contact_count() - 3 * free_disk_count() - directions + (floats ? 2 : 0);
 }
 
 double Packing::force_unit() const {
@@ -30,6 +38,13 @@ double Packing::force_unit() const {
   for (const Disk& disk : disks) mass += disk.fixed ? 0 : disk.mass / count;
   const double weight = gravity.stableNorm() * mass;
   if (!(weight > 0)) {
+    const double natural = stress.largest() * 2 * max_radius();
+    if (natural > 0) {
+      throw InputError(fmt::format(
+          "the scene has no gravity, so it must name its unit of force (force_unit in scene.toml); "
+          "its stress times the largest diameter is {:.3g}",
+          natural));
+    }
     throw InputError(
         "the scene has no gravity, so it must name its unit of force (force_unit in scene.toml)");
   }
@@ -48,6 +63,7 @@ double Packing::internal_force_unit() const {
     if (wall.is_free_along_normal()) largest = std::max(largest, std::abs(wall.load_n));
     if (wall.is_free_along_tangent()) largest = std::max(largest, std::abs(wall.load_t));
   }
+  largest = std::max(largest, stress.largest() * 2 * max_radius());
   constexpr double kFar = 1000;
   if (largest == 0 || (largest < kFar * unit && unit < kFar * largest)) return unit;
   return std::exp2(std::round(std::log2(largest)));
@@ -87,6 +103,12 @@ Vector2 Packing::contact_point(const Contact& contact) const {
   return (*this)[contact.a].position - lever_a(contact) * contact.normal;
 }
 
+Vector2 Packing::branch(const Contact& contact) const {
+  return centre_difference(*this, contact.a, contact.b.disk_id(), contact.image);
+}
+
+double Packing::cell_length() const { return std::max(std::sqrt(cell.area()), 2 * max_radius()); }
+
 SceneForces Packing::simulated_forces() const {
   Eigen::VectorXd forces(2 * contact_count());
   for (int i = 0; i < contact_count(); ++i) {
@@ -105,12 +127,60 @@ std::string contact_name(const Packing& packing, ContactId contact) {
   const Contact& c = packing[contact];
   const std::string first = std::to_string(packing[c.a].id);
   if (c.b.is_wall()) return first + "–wall " + packing[c.b.wall_id()].name;
-  return first + "–" + std::to_string(packing[c.b.disk_id()].id);
+  const std::string second = std::to_string(packing[c.b.disk_id()].id);
+  if (!c.has_image()) return first + "–" + second;
+  return fmt::format("{}–{} ({}, {})", first, second, c.image[0], c.image[1]);
 }
 
-Vector2 geometric_normal(const Packing& packing, DiskId a, Body b) {
+Vector2 centre_difference(const Packing& packing, DiskId a, DiskId b, const Image& image) {
+  Vector2 difference;
+  for (const int k : {0, 1}) {
+    ExactSum sum;
+    sum.add(packing[a].position[k]);
+    sum.add(-packing[b].position[k]);
+    if (packing.cell.a) sum.add_product(-double{1} * image[0], (*packing.cell.a)[k]);
+    if (packing.cell.b) sum.add_product(-double{1} * image[1], (*packing.cell.b)[k]);
+    difference[k] = sum.value();
+  }
+  return difference;
+}
+
+Image nearest_image(const Packing& packing, DiskId a, DiskId b) {
+  const Vector2 difference = packing[a].position - packing[b].position;
+  const auto& [first, second] = packing.cell;
+  Vector2 place(0, 0);  // of the difference, in vectors of the cell
+  if (packing.cell.is_full()) {
+    Eigen::Matrix2d vectors;
+    vectors << *first, *second;
+    place = vectors.inverse() * difference;
+  } else if (packing.cell.is_periodic()) {
+    const Vector2& along = first ? *first : *second;
+    place[first ? 0 : 1] = difference.dot(along) / along.squaredNorm();
+  }
+  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > 1e9) return {0, 0};
+  const Image middle = {static_cast<std::int32_t>(std::lround(place.x())),
+                        static_cast<std::int32_t>(std::lround(place.y()))};
+  // A tilted cell may have a nearer image beside the rounded one.
+  const int reach_a = first ? 2 : 0;
+  const int reach_b = second ? 2 : 0;
+  Image nearest{0, 0};
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = -reach_a; i <= reach_a; ++i) {
+    for (int j = -reach_b; j <= reach_b; ++j) {
+      const Image image = {middle[0] + i, middle[1] + j};
+      if (a == b && image == Image{0, 0}) continue;
+      const double distance = centre_difference(packing, a, b, image).stableNorm();
+      if (distance >= smallest) continue;
+      smallest = distance;
+      nearest = image;
+    }
+  }
+  return nearest;
+}
+
+Vector2 geometric_normal(const Packing& packing, DiskId a, Body b, const Image& image) {
   if (b.is_wall()) return packing[b.wall_id()].normal.stableNormalized();
-  const Vector2 difference = packing[a].position - packing[b.disk_id()].position;
+  const Vector2 difference = centre_difference(packing, a, b.disk_id(), image);
   const Vector2 normal = difference.stableNormalized();
   if (!(normal.squaredNorm() > 0.5)) {
     throw InputError("the centres of the two disks coincide, so the contact has no normal");
@@ -118,14 +188,14 @@ Vector2 geometric_normal(const Packing& packing, DiskId a, Body b) {
   return normal;
 }
 
-double geometric_gap(const Packing& packing, DiskId a, Body b) {
+double geometric_gap(const Packing& packing, DiskId a, Body b, const Image& image) {
   const Disk& disk = packing[a];
   if (b.is_wall()) {
     const Wall& wall = packing[b.wall_id()];
     return (disk.position - wall.point).dot(wall.normal) - disk.radius;
   }
   const Disk& other = packing[b.disk_id()];
-  return (disk.position - other.position).stableNorm() - (disk.radius + other.radius);
+  return centre_difference(packing, a, b.disk_id(), image).stableNorm() - (disk.radius + other.radius);
 }
 
 }  // namespace indet

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,12 +7,11 @@
 #include <vector>
 
 #include "libindet/base/index.h"
+#include "libindet/packing/cell.h"
 #include "libindet/packing/force.h"
+#include "libindet/packing/vectors.h"
 
 namespace indet {
-
-using Vector2 = Eigen::Vector2d;
-using Vector3 = Eigen::Vector3d;
 
 /// A static packing of rigid disks, in the units of its scene (docs/notation.md). This is the value that
 /// simulators and importers return, and that the analysis starts from.
@@ -59,16 +57,20 @@ struct Wall {
   bool is_loaded() const { return is_free_along_normal() || is_free_along_tangent(); }
 };
 
-/// The second body of a contact: a disk or a wall. In files a wall w is written as −(w + 1).
+/// The second body of a contact: a disk or a wall. In files a wall w is written as −(w + 1). Equations and
+/// motions are also of the cell, which no contact is with; its components are those of the stress: 0 xx, 1
+/// yy, 2 xy, 3 pressure.
 class Body {
  public:
   Body() = default;
   static Body disk(DiskId id) { return Body(id.value()); }
   static Body wall(WallId id) { return Body(-(id.value() + 1)); }
+  static Body cell() { return Body(std::numeric_limits<std::int32_t>::min()); }
   static Body from_code(std::int32_t code) { return Body(code); }
 
-  bool is_wall() const { return code_ < 0; }
-  DiskId disk_id() const { return DiskId(code_); }       ///< Precondition: !is_wall().
+  bool is_cell() const { return *this == cell(); }
+  bool is_wall() const { return code_ < 0 && !is_cell(); }
+  DiskId disk_id() const { return DiskId(code_); }       ///< Precondition: !is_wall(), !is_cell().
   WallId wall_id() const { return WallId(-code_ - 1); }  ///< Precondition: is_wall().
   std::int32_t code() const { return code_; }
   bool operator==(const Body&) const = default;
@@ -101,6 +103,10 @@ struct Contact {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     return R_lo > -kNone || R_hi < kNone || T_lo > -kNone || T_hi < kNone;
   }
+  /// Of a periodic scene: which image of b it is with. 0 of walls. A disk may touch images of itself.
+  Image image{0, 0};
+
+  bool has_image() const { return image[0] != 0 || image[1] != 0; }
   /// t̂ = n̂ × ẑ = (n_y, −n_x) [10].
   Vector2 tangent() const { return {normal.y(), -normal.x()}; }
 };
@@ -120,25 +126,30 @@ struct Packing {
   std::vector<Contact> contacts;
   Vector2 gravity{0, 0};        ///< Acceleration.
   double named_force_unit = 0;  ///< Unit of force that the scene names; 0: the mean weight of a disk.
+  Cell cell;
+  Stress stress;  ///< Imposed on the cell.
   Origin origin;
 
   int disk_count() const { return static_cast<int>(disks.size()); }
   int free_disk_count() const;  ///< N: disks that are not fixed.
   int fixed_disk_count() const { return disk_count() - free_disk_count(); }
   bool has_loaded_walls() const;
-  /// 2M − 3N, less the directions in which walls are loaded: the least nullity of c.
+  /// 2M − 3N, less the directions in which walls are loaded and the components of stress that are imposed:
+  /// the least nullity of c. In a full cell that nothing fixed holds, 2 of the equations of force follow from
+  /// the others, so it is 2 more.
   int expected_dimension() const;
   int wall_count() const { return static_cast<int>(walls.size()); }
   int contact_count() const { return static_cast<int>(contacts.size()); }
 
   /// The unit in which forces are computed and printed: the named one, else the mean weight |g| Σm/N of
   /// the free disks ("mg" in the paper). 1 for a packing without free disks. Throws InputError if there is
-  /// neither gravity nor a named unit.
+  /// neither gravity nor a named unit; where stress is imposed it proposes that times a diameter.
   double force_unit() const;
 
   /// The unit in which the equilibrium problem is solved and residuals are judged. force_unit(), unless that
-  /// says little about the scene: where the largest load on a disk or wall is more than 1000 times larger or
-  /// smaller, the power of two next to that load. Tolerances then mean the same whatever unit a scene names.
+  /// says little about the scene: where the largest load on a disk or wall, or stress times the largest
+  /// diameter, is more than 1000 times larger or smaller, the power of two next to it. Tolerances then mean
+  /// the same whatever unit a scene names.
   /// Throws like force_unit().
   double internal_force_unit() const;
 
@@ -155,9 +166,12 @@ struct Packing {
   /// the problem.
   bool has_equations(DiskId disk) const { return !(*this)[disk].fixed; }
   bool has_equations(Body body) const {
+    if (body.is_cell()) return stress.is_imposed();
     return body.is_wall() ? (*this)[body.wall_id()].is_loaded() : has_equations(body.disk_id());
   }
-  bool is_free_disk(Body body) const { return !body.is_wall() && has_equations(body.disk_id()); }
+  bool is_free_disk(Body body) const {
+    return !body.is_wall() && !body.is_cell() && has_equations(body.disk_id());
+  }
 
   /// The arm of the torque of T on a; on b, 0 if b is a wall.
   double lever_a(ContactId contact) const { return lever_a((*this)[contact]); }
@@ -168,6 +182,11 @@ struct Packing {
   bool has_bounds() const;  ///< Some contact has a force that the scene bounds.
   /// Where the force of a contact acts: x_a − l_a n̂.
   Vector2 contact_point(const Contact& contact) const;
+  /// l = x_a − (x_b + image · cell vectors) of a contact of two disks, to one rounding of |l|.
+  Vector2 branch(const Contact& contact) const;
+  /// √A of a full cell, but at least the largest diameter: equations of stress are divided by it, and so are
+  /// forces across a side of the cell.
+  double cell_length() const;
 
   /// The simulated forces, 2M; NaN where unknown.
   SceneForces simulated_forces() const;
@@ -180,14 +199,24 @@ struct Packing {
   const Contact& operator[](ContactId i) const { return contacts[static_cast<std::size_t>(i.value())]; }
 };
 
-/// The bodies of a contact for a person, by their names in the scene: "12–7", "12–wall floor".
+/// The bodies of a contact for a person, by their names in the scene: "12–7", "12–wall floor", and with an
+/// image "12–7 (1, 0)".
 std::string contact_name(const Packing& packing, ContactId contact);
 
-/// The direction from body b to the centre of disk a, from the positions alone [9]: x_a − x_b for two disks,
-/// the wall's normal for a wall; unit length. Throws InputError if two centres coincide.
-Vector2 geometric_normal(const Packing& packing, DiskId a, Body b);
+/// x_a − (x_b + image · cell vectors), to one rounding of its length.
+Vector2 centre_difference(const Packing& packing, DiskId a, DiskId b, const Image& image);
 
-/// Distance of the surfaces of disk a and body b from the positions alone; negative where they overlap.
-double geometric_gap(const Packing& packing, DiskId a, Body b);
+/// The image of disk b that is nearest to disk a; of two equally near ones the same each time. Of a disk
+/// itself, the nearest that is not itself. (0, 0) where the scene is not periodic.
+Image nearest_image(const Packing& packing, DiskId a, DiskId b);
+
+/// The direction from body b (its image, if it is a disk) to the centre of disk a, from the positions alone
+/// [9]: that of centre_difference for two disks, the wall's normal for a wall; unit length. Throws InputError
+/// if two centres coincide.
+Vector2 geometric_normal(const Packing& packing, DiskId a, Body b, const Image& image = {0, 0});
+
+/// Distance of the surfaces of disk a and (the image of) body b from the positions alone; negative where they
+/// overlap.
+double geometric_gap(const Packing& packing, DiskId a, Body b, const Image& image = {0, 0});
 
 }  // namespace indet

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "libindet/base/counted.h"
@@ -74,6 +75,63 @@ Reason wall_defect(const Wall& wall) {
       [&] { return infinite("load_t", wall.load_t); });
 }
 
+Reason image_defect(const Cell& cell, const Contact& contact) {
+  if (!contact.has_image()) return {};
+  if (contact.b.is_wall()) return "body b is a wall, which has no images, so its image must be 0, 0";
+  const bool in_a = cell.a || contact.image[0] == 0;
+  const bool in_b = cell.b || contact.image[1] == 0;
+  if (in_a && in_b) return {};
+  return fmt::format("its image is ({}, {}), but the scene is not periodic along the {} vector of a cell",
+                     contact.image[0], contact.image[1], in_a ? "second" : "first");
+}
+
+Reason vector_defect(const char* name, const std::optional<Vector2>& vector) {
+  if (!vector) return {};
+  if (!vector->allFinite()) return fmt::format("{} must be two finite numbers", name);
+  if (!vector->isZero(0)) return {};
+  return fmt::format("{} must not be (0, 0); leave it out where the scene is not periodic", name);
+}
+
+Reason cell_defect(const Packing& packing) {
+  const Cell& cell = packing.cell;
+  if (auto reason = vector_defect("a", cell.a)) return reason;
+  if (auto reason = vector_defect("b", cell.b)) return reason;
+  if (!cell.is_full()) return {};
+  if (!(cell.area() > tolerance::kFlatCell * cell.a->stableNorm() * cell.b->stableNorm()))
+    return "its two vectors are parallel, so it has no area";
+  if (!packing.gravity.isZero(0) && packing.disk_count() > 0 && packing.fixed_disk_count() == 0)
+    return fmt::format(
+        "the scene is periodic in both directions and has no fixed disk, so nothing takes the weight of its "
+        "disks: gravity must be (0, 0), but is ({}, {})",
+        packing.gravity.x(), packing.gravity.y());
+  return {};
+}
+
+Reason stress_defect(const Packing& packing) {
+  const auto components = packing.stress.components();
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    if (std::isinf(components[k])) return fmt::format("{} must be a finite number", Stress::kNames[k]);
+  }
+  if (!packing.stress.is_imposed()) return {};
+  if (!packing.cell.is_full()) return "a stress needs a cell that is periodic in both directions";
+  if (packing.fixed_disk_count() > 0)
+    return "a stress cannot be imposed on a cell with fixed disks, which bear a part of it";
+  if (!std::isnan(packing.stress.pressure) &&
+      (!std::isnan(packing.stress.xx) || !std::isnan(packing.stress.yy)))
+    return "the pressure is (xx + yy)/2, so that it cannot be given beside xx or yy";
+  return {};
+}
+
+/// A wall must look the same in each image of the cell.
+Reason wall_in_cell_defect(const Cell& cell, const Wall& wall) {
+  if (!cell.is_periodic()) return {};
+  if (cell.is_full()) return "a scene that is periodic in both directions has no walls";
+  const Vector2& along = cell.a ? *cell.a : *cell.b;
+  if (std::abs(along.stableNormalized().dot(wall.normal)) <= tolerance::kNormalDirection) return {};
+  return fmt::format("the scene is periodic along ({}, {}), so its walls must be parallel to that", along.x(),
+                     along.y());
+}
+
 Reason index_defect(const Packing& packing, const Contact& contact) {
   if (contact.a.value() < 0 || contact.a.value() >= packing.disk_count()) {
     return fmt::format("body a is disk {}, but the disks are 0 … {}", contact.a.value(),
@@ -83,11 +141,13 @@ Reason index_defect(const Packing& packing, const Contact& contact) {
     return fmt::format("body b is wall {}, but the scene has {}", contact.b.wall_id().value(),
                        counted(packing.wall_count(), "wall"));
   }
+  if (contact.b.is_cell()) return fmt::format("body b is {}, which is no body", contact.b.code());
   if (!contact.b.is_wall() && contact.b.disk_id().value() >= packing.disk_count()) {
     return fmt::format("body b is disk {}, but the disks are 0 … {}", contact.b.code(),
                        packing.disk_count() - 1);
   }
-  if (!contact.b.is_wall() && contact.b.disk_id() == contact.a) {
+  if (auto reason = image_defect(packing.cell, contact)) return reason;
+  if (!contact.b.is_wall() && contact.b.disk_id() == contact.a && !contact.has_image()) {
     return fmt::format("disk {} cannot touch itself", contact.a.value());
   }
   if (!packing.has_equations(contact.a) && !packing.has_equations(contact.b)) {
@@ -118,7 +178,7 @@ Reason normal_defect(const Packing& packing, const Contact& contact) {
   if (auto reason = not_unit(contact.normal)) return reason;
   Vector2 expected;
   try {
-    expected = geometric_normal(packing, contact.a, contact.b);
+    expected = geometric_normal(packing, contact.a, contact.b, contact.image);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -132,7 +192,7 @@ Reason normal_defect(const Packing& packing, const Contact& contact) {
 /// is not wholly inside of a disk.
 Reason gap_defect(const Packing& packing, const Contact& contact) {
   const Disk& a = packing[contact.a];
-  const double gap = geometric_gap(packing, contact.a, contact.b);
+  const double gap = geometric_gap(packing, contact.a, contact.b, contact.image);
   const double radius =
       contact.b.is_wall() ? a.radius : std::min(a.radius, packing[contact.b.disk_id()].radius);
   const std::string other = contact.b.is_wall() ? fmt::format("wall {}", packing[contact.b.wall_id()].id)
@@ -177,16 +237,17 @@ Reason contact_defect(const Packing& packing, const Contact& contact) {
       });
 }
 
-/// A pair of bodies as one key, the same for (a, b) and (b, a).
-std::uint64_t pair_key(const Contact& contact) {
-  std::int32_t first = contact.a.value();
-  std::int32_t second = contact.b.code();
-  if (first < second) std::swap(first, second);
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(first)) << 32) |
-         static_cast<std::uint32_t>(second);
-}
-
 }  // namespace
+
+ContactKey contact_key(const Contact& contact) {
+  const std::int64_t i = contact.image[0];
+  const std::int64_t j = contact.image[1];
+  const std::pair direct{contact.a.value(), contact.b.code()};
+  const bool turns =
+      direct.first < direct.second || (direct.first == direct.second && (i < 0 || (i == 0 && j < 0)));
+  if (!turns) return {direct.first, direct.second, contact.image[0], contact.image[1]};
+  return {direct.second, direct.first, static_cast<std::int32_t>(-i), static_cast<std::int32_t>(-j)};
+}
 
 std::optional<Defect> find_defect(const Packing& packing) {
   const auto scene = [](std::string reason) { return Defect{PackingPart::kScene, -1, std::move(reason)}; };
@@ -194,17 +255,21 @@ std::optional<Defect> find_defect(const Packing& packing) {
   if (!std::isfinite(packing.named_force_unit) || packing.named_force_unit < 0) {
     return scene(fmt::format("force_unit must be positive, but is {}", packing.named_force_unit));
   }
+  if (auto reason = cell_defect(packing)) return Defect{PackingPart::kCell, -1, *reason};
+  if (auto reason = stress_defect(packing)) return Defect{PackingPart::kStress, -1, *reason};
   for (int i = 0; i < packing.disk_count(); ++i) {
     if (auto reason = disk_defect(packing[DiskId(i)])) return Defect{PackingPart::kDisk, i, *reason};
   }
   for (int i = 0; i < packing.wall_count(); ++i) {
-    if (auto reason = wall_defect(packing[WallId(i)])) return Defect{PackingPart::kWall, i, *reason};
+    auto reason = wall_defect(packing[WallId(i)]);
+    if (!reason) reason = wall_in_cell_defect(packing.cell, packing[WallId(i)]);
+    if (reason) return Defect{PackingPart::kWall, i, *reason};
   }
-  std::unordered_map<std::uint64_t, int> seen;
+  std::map<ContactKey, int> seen;
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];
     if (auto reason = contact_defect(packing, contact)) return Defect{PackingPart::kContact, i, *reason};
-    const auto [earlier, is_new] = seen.emplace(pair_key(contact), i);
+    const auto [earlier, is_new] = seen.emplace(contact_key(contact), i);
     if (!is_new) {
       return Defect{PackingPart::kContact, i,
                     fmt::format("this contact is given twice: it is also contact {}", earlier->second)};
@@ -225,6 +290,10 @@ void validate(const Packing& packing, const std::string& source) {
   switch (defect->part) {
     case PackingPart::kScene:
       throw InputError(fmt::format("{}: {}", source, defect->reason));
+    case PackingPart::kCell:
+      throw InputError(fmt::format("{}: cell: {}", source, defect->reason));
+    case PackingPart::kStress:
+      throw InputError(fmt::format("{}: stress: {}", source, defect->reason));
     case PackingPart::kDisk:
       part = "disk";
       break;

@@ -24,14 +24,21 @@ void add_multiplier(const EquilibriumProblem& problem, int bound, double value, 
   if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower) add(bound - 1, -value);
 }
 
-/// Spreads a motion of the equations' rows over disks and walls; largest entry 1.
+/// Spreads a motion of the equations' rows over disks, walls and the cell; largest entry 1.
 void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
   polytope.motion.setZero(problem.disks, 3);
   const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),
                                       [](const EquilibriumRow& row) { return row.body.is_wall(); });
   polytope.wall_motion.setZero(walls_move ? problem.walls : 0, 2);
   polytope.bound_multipliers.setZero(static_cast<Eigen::Index>(problem.bounds.size()));
+  const bool cell_moves = std::any_of(problem.rows.begin(), problem.rows.end(),
+                                      [](const EquilibriumRow& row) { return row.body.is_cell(); });
   const double largest = rows.lpNorm<Eigen::Infinity>();
+  if (cell_moves) {
+    polytope.cell_motion = problem.compression_of(rows / largest).unaryExpr([](double rate) {
+      return std::abs(rate) > tolerance::kMotionEntry ? rate : 0;
+    });
+  }
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
     if (row.bound >= 0) {
@@ -39,6 +46,7 @@ void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, 
                      [&](int bound, double value) { polytope.bound_multipliers[bound] += value; });
       continue;
     }
+    if (row.body.is_cell()) continue;
     // Entries at the level of rounding say nothing about which body moves.
     const double velocity = std::abs(rows[i] / largest) > tolerance::kMotionEntry ? rows[i] / largest : 0;
     if (row.body.is_wall()) {
@@ -83,7 +91,10 @@ std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const Equi
     }
     const int number = exact.row(row.body, row.component);
     if (number < 0) continue;
-    const double scale = row.component == 2 ? exact.spin_scale(row.body.disk_id()) : 1;
+    const bool turns = !row.body.is_cell() && row.component == 2;
+    const double scale = row.body.is_cell() ? exact.compression_scale()
+                         : turns            ? exact.spin_scale(row.body.disk_id())
+                                            : 1;
     result[static_cast<std::size_t>(number)] = motion[i] / largest * scale;
   }
   return result;

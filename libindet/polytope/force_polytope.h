@@ -66,6 +66,9 @@ struct ForcePolytope {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
   /// The same of walls, if some are loaded: along the normal and the tangent [W, 2].
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_motion;
+  /// If stress is imposed, the rate of compression e_ij of the cell, times Packing::cell_length [2, 2]: what
+  /// lies at x moves with −e x beside its own velocity. It has no yx.
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> cell_motion;
   /// The multipliers of bounds that go with it (of force_bounds(), in its order): with v_k = motion · A_k the
   /// power of a force F_k along the motion and m the multipliers, v_k + Σ m over its bounds must not be
   /// negative along any edge, m ≥ 0 of a kUpper, m ≤ 0 of a kLower, and power of the load − Σ m · value > 0.

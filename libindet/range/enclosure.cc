@@ -214,7 +214,7 @@ class Encloser {
         const double product = it.value() * y[it.row()];
         sum -= product;
         magnitude += std::abs(product);
-        plain += std::abs(y[it.row()]);
+        plain += equations_.entry_error(it.row()) * std::abs(y[it.row()]);
         ++terms;
       }
       const double excess = sum + kWiden * kRoundoff * (terms * magnitude + 8 * plain);
@@ -299,10 +299,11 @@ class Encloser {
     Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem_.equations());
     for (std::size_t k = 0; k < equations_.rows().size(); ++k)
       motion[equations_.rows()[k]] = y[static_cast<Eigen::Index>(k)];
+    const Eigen::Matrix2d compression = problem_.compression_of(motion);
     double sum = 0;
     for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
       const ContactEnds& contact = problem_.contacts[i];
-      Vector2 relative(0, 0);
+      Vector2 relative = -compression * contact.branch;
       if (contact.a >= 0) relative += motion.segment<2>(contact.a);
       if (contact.b >= 0) relative -= motion.segment<2>(contact.b);
       const double R = extrema_.states(state, 2 * static_cast<Eigen::Index>(i));

@@ -8,7 +8,8 @@
 namespace indet {
 namespace {
 
-/// The column of R is n̂, that of T is t̂ and l/r, of which l = r makes 1; other quotients are rounded.
+/// The column of R is n̂, that of T is t̂ and l/r, of which l = r makes 1; other quotients are rounded, and so
+/// is what both have in equations of stress.
 bool has_stored_entries(const EquilibriumProblem& problem, const Edge& edge) {
   if (edge.is_slack()) return true;  // 1
   if (!problem.is_stick(edge)) return false;
@@ -48,6 +49,7 @@ void EquationBounds::restrict_to_independent_rows() {
   for (Eigen::Index k = 0; k < rank; ++k) {
     const int row = rows_[static_cast<std::size_t>(k)];
     const EquilibriumRow& equation = problem_.rows[static_cast<std::size_t>(row)];
+    is_stress_.push_back(equation.body.is_cell());
     load_[k] = problem_.load()[row];
     load_error_[k] = 6 * kRoundoff * equation.load / equation.unit + kTiny;
   }
@@ -81,8 +83,11 @@ void EquationBounds::bound_right_inverse() {
 Eigen::VectorXd EquationBounds::inexact_entries(const Eigen::VectorXd& weight) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(rank());
   for (int j = 0; j < matrix_.outerSize(); ++j) {
-    if (has_stored_entries(problem_, problem_.edge(j))) continue;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) sums[it.row()] += weight[j];
+    const bool stored = has_stored_entries(problem_, problem_.edge(j));
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it) {
+      if (!stored || is_stress_[static_cast<std::size_t>(it.row())])
+        sums[it.row()] += entry_error(it.row()) * weight[j];
+    }
   }
   return sums;
 }

@@ -25,6 +25,9 @@ class EquationBounds {
   const Eigen::SparseMatrix<double>& edge_matrix() const { return edge_matrix_; }
   /// P: unknowns × rank.
   const auto& right_inverse() const { return right_inverse_; }
+  /// Bound of the rounding of an entry of an independent equation, in units of 8u: entries of stress are
+  /// f·l/L, with |f| ≤ √2 and |l|/L ≤ 3/2, each rounded several times.
+  double entry_error(Eigen::Index row) const { return is_stress_[static_cast<std::size_t>(row)] ? 3 : 1; }
   /// The rank is that of the polytope, and γ < 1/2.
   bool is_proven() const;
 
@@ -44,6 +47,7 @@ class EquationBounds {
   std::vector<int> rows_;
   Eigen::SparseMatrix<double> matrix_, edge_matrix_;  ///< on these rows
   Eigen::VectorXd load_, load_error_;
+  std::vector<bool> is_stress_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> right_inverse_;
   double gain_ = 1;        ///< ‖P‖∞ / (1 − γ); +inf where nothing is proven
   double row_length_ = 0;  ///< most entries of a row of A

@@ -20,6 +20,7 @@ ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope) 
   summary.motion = polytope.motion;
   summary.wall_motion = polytope.wall_motion;
   summary.bound_multipliers = polytope.bound_multipliers;
+  summary.cell_motion = polytope.cell_motion;
   return summary;
 }
 

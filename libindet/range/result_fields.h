@@ -12,7 +12,7 @@ namespace indet {
 /// states and U rays.
 enum class Extent : std::uint8_t {
   kOne,
-  kDirections,      ///< 2: along normal and tangent
+  kDirections,      ///< 2: along normal and tangent, or x and y
   kComponents,      ///< 3: x, y, rotation
   kColumns,         ///< 4: R_min, R_max, T_min, T_max
   kDisks,           ///< N
@@ -107,6 +107,10 @@ void visit_problem(Part& r, Visit& visit) {
               "virtual velocity along normal and tangent with which loaded walls move then",
               FieldSource::kProof, Extent::kWalls, Extent::kDirections, Presence::kWhereRows},
         r.wall_motion);
+  visit(Field{"/equilibrium", "cell_motion", "1",
+              "rate of compression times the length of the cell then, rows x, y and columns x, y",
+              FieldSource::kProof, Extent::kDirections, Extent::kDirections, Presence::kWhereRows},
+        r.cell_motion);
   visit(Field{"/equilibrium", "bound_multipliers", "1",
               "multipliers with which bounds of forces take part in the proof then", FieldSource::kProof,
               Extent::kBounds, Extent::kOne, Presence::kWhereRows},

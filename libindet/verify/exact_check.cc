@@ -147,6 +147,8 @@ class Check {
         if (bounds[k].contact.value() == e / 2)
           total += ranges_.bound_multipliers[static_cast<Eigen::Index>(k)] * (bounds[k].tangential ? mu : 1);
       }
+      if (ranges_.cell_motion.rows() == 2)
+        total -= force.dot(ranges_.cell_motion * packing_.branch(contact)) / packing_.cell_length();
       preference[static_cast<std::size_t>(e)] = -std::abs(total);
     }
     const auto basis = basis_by(preference);

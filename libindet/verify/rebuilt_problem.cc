@@ -17,7 +17,7 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
       internal_unit_(packing.internal_force_unit() / force_unit_) {
   const int disks = packing.disk_count();
   const int contacts = packing.contact_count();
-  const int rows = 3 * disks + 2 * packing.wall_count();
+  const int rows = 3 * disks + 2 * packing.wall_count() + 3;
   matrix_.setZero(rows, 2 * contacts);
   wrench_.setZero(rows);
   for (int w = 0; w < packing.wall_count(); ++w) {
@@ -41,7 +41,9 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
       const Disk& disk = packing[id];
       if (disk.fixed) return;
       const double arm = std::isnan(lever) ? 1 : lever / disk.radius;
-      matrix_.block<3, 2>(3 * id.value(), 2 * c) << chi * nx, chi * ny, chi * ny, -chi * nx, 0, arm;
+      Eigen::Matrix<double, 3, 2> part;
+      part << chi * nx, chi * ny, chi * ny, -chi * nx, 0, arm;
+      matrix_.block<3, 2>(3 * id.value(), 2 * c) += part;  // a disk may be at both ends
     };
     place(contact.a, 1, contact.lever_a);
     if (!contact.b.is_wall()) {
@@ -54,6 +56,7 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
     }
     if (contact.mu == 0) frictionless.push_back(2 * c + 1);
   }
+  if (packing.stress.is_imposed()) add_stress();
   bounds_ = force_bounds(packing);
   std::vector<int> held = frictionless;
   for (const ForceBound& bound : bounds_) {
@@ -66,6 +69,34 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
   for (std::size_t i = 0; i < held.size(); ++i)
     constraints(matrix_.rows() + static_cast<Eigen::Index>(i), held[i]) = 1;
   kernel_ = kernel_basis(constraints, tolerance::kRebuiltRank);
+}
+
+void RebuiltProblem::add_stress() {
+  const Stress& stress = packing_.stress;
+  const Vector2 a = *packing_.cell.a;
+  const Vector2 b = *packing_.cell.b;
+  const double area = std::abs(a.x() * b.y() - a.y() * b.x());
+  double length = std::sqrt(area);
+  for (const Disk& disk : packing_.disks) length = std::max(length, 2 * disk.radius);
+  const bool isotropic = !std::isnan(stress.pressure);
+  const Eigen::Index first = matrix_.rows() - 3;
+  const double imposed[3] = {isotropic ? stress.pressure : stress.xx, stress.yy, stress.xy};
+  for (int k = 0; k < 3; ++k) {
+    if (std::isnan(imposed[k])) continue;
+    wrench_[first + k] = area * imposed[k] / (length * force_unit_);
+    for (int c = 0; c < packing_.contact_count(); ++c) {
+      const Contact& contact = packing_[ContactId(c)];
+      const Vector2 image = contact.image[0] * a + contact.image[1] * b;
+      const Vector2 l =
+          (packing_[contact.a].position - packing_[contact.b.disk_id()].position - image) / length;
+      const Vector2 n = contact.normal;
+      const Vector2 t(n.y(), -n.x());
+      const int i = k == 1 ? 1 : 0;
+      const int j = k == 0 ? 0 : 1;
+      matrix_(first + k, 2 * c) = k == 0 && isotropic ? -n.dot(l) / 2 : -n[i] * l[j];
+      matrix_(first + k, 2 * c + 1) = k == 0 && isotropic ? -t.dot(l) / 2 : -t[i] * l[j];
+    }
+  }
 }
 
 double RebuiltProblem::imbalance_without_load(const Eigen::VectorXd& forces) const {
@@ -147,12 +178,16 @@ double RebuiltProblem::optimality_gap(const Eigen::VectorXd& coefficients,
   return (normals * solve_nonnegative(normals, -gradient) + gradient).norm();
 }
 
-Eigen::VectorXd RebuiltProblem::flat_motion(const Eigen::MatrixXd& disks,
-                                            const Eigen::MatrixXd& walls) const {
+Eigen::VectorXd RebuiltProblem::flat_motion(const Eigen::MatrixXd& disks, const Eigen::MatrixXd& walls,
+                                            const Eigen::MatrixXd& cell) const {
   Eigen::VectorXd flat = Eigen::VectorXd::Zero(matrix_.rows());
   for (Eigen::Index i = 0; i < disks.rows(); ++i) flat.segment<3>(3 * i) = disks.row(i).transpose();
   for (Eigen::Index w = 0; w < walls.rows(); ++w)
     flat.segment<2>(3 * disks.rows() + 2 * w) = walls.row(w).transpose();
+  if (cell.rows() == 2) {
+    const bool isotropic = !std::isnan(packing_.stress.pressure);
+    flat.tail<3>() << cell(0, 0) + (isotropic ? cell(1, 1) : 0), isotropic ? 0 : cell(1, 1), cell(0, 1);
+  }
   return flat;
 }
 

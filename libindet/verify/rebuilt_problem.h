@@ -10,8 +10,9 @@ namespace indet {
 
 /// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
 /// solved with other means than the analysis uses: a dense contact matrix [15] with all 2M columns (T is held
-/// at 0 where μ = 0 by a row of its own) and two rows a wall (0 for what is fixed), and its kernel by
-/// column-pivoted Householder QR. Forces in units of the packing's force unit.
+/// at 0 where μ = 0 by a row of its own), two rows a wall (0 for what is fixed) and three for the stress of
+/// the cell (xx or the pressure, yy, xy; 0 for what is not imposed), and its kernel by column-pivoted
+/// Householder QR. Forces in units of the packing's force unit.
 class RebuiltProblem {
  public:
   explicit RebuiltProblem(const Packing& packing);
@@ -50,10 +51,12 @@ class RebuiltProblem {
   /// The same for the sum coefficients · (R_1, T_1, …).
   double optimality_gap(const Eigen::VectorXd& coefficients, const std::vector<int>& tight) const;
 
-  /// A virtual motion [N, 3] (x, y, rω) of disks, and of walls [W, 2] (along normal and tangent; or none) as
-  /// one column. It proves that the packing cannot stand if the load's power is positive, and the smallest
-  /// power of any edge of any contact cone is not negative.
-  Eigen::VectorXd flat_motion(const Eigen::MatrixXd& disks, const Eigen::MatrixXd& walls) const;
+  /// A virtual motion [N, 3] (x, y, rω) of disks, of walls [W, 2] (along normal and tangent; or none) and of
+  /// the cell [2, 2] (rate of compression times its length; or none) as one column. It proves that the
+  /// packing cannot stand if the load's power is positive, and the smallest power of any edge of any contact
+  /// cone is not negative.
+  Eigen::VectorXd flat_motion(const Eigen::MatrixXd& disks, const Eigen::MatrixXd& walls,
+                              const Eigen::MatrixXd& cell) const;
   double load_power(const Eigen::VectorXd& motion) const;
   double smallest_contact_power(const Eigen::VectorXd& motion) const;
   /// The same where the scene bounds forces, with a multiplier for each of force_bounds() (ForcePolytope::
@@ -62,10 +65,12 @@ class RebuiltProblem {
   double smallest_power(const Eigen::VectorXd& motion, const Eigen::VectorXd& multipliers) const;
 
  private:
+  void add_stress();
+
   const Packing& packing_;
   double force_unit_, internal_unit_;
-  Eigen::MatrixXd matrix_;  ///< (3N + 2W) × 2M
-  Eigen::VectorXd wrench_;  ///< 3N + 2W
+  Eigen::MatrixXd matrix_;  ///< (3N + 2W + 3) × 2M
+  Eigen::VectorXd wrench_;  ///< 3N + 2W + 3
   Eigen::MatrixXd kernel_;  ///< 2M × d
   std::vector<ForceBound> bounds_, inequalities_, equalities_;
 };

@@ -79,7 +79,9 @@ class Verifier {
                            (std::isnan(wall.load_t) && ranges_.wall_motion(w, 1) != 0);
       compare_.require(!is_held, "wall_motion: wall {} moves where it is not free", wall.id);
     }
-    const Eigen::VectorXd motion = problem_.flat_motion(ranges_.motion, ranges_.wall_motion);
+    if (!check_cell_motion()) return;
+    const Eigen::VectorXd motion =
+        problem_.flat_motion(ranges_.motion, ranges_.wall_motion, ranges_.cell_motion);
     const auto bounds = static_cast<Eigen::Index>(force_bounds(packing_).size());
     if (!compare_.require(ranges_.bound_multipliers.size() == bounds, "bound_multipliers: {} for {} bounds",
                           ranges_.bound_multipliers.size(), bounds)) {
@@ -90,6 +92,23 @@ class Verifier {
     compare_.require(power > 0, "motion: the load does no work ({})", power);
     compare_.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})",
                      resisted);
+  }
+
+  /// The cell moves only in the ways that do work on the imposed stress.
+  bool check_cell_motion() {
+    if (ranges_.cell_motion.rows() == 0) return true;
+    if (!compare_.require(ranges_.cell_motion.rows() == 2 && packing_.stress.is_imposed(),
+                          "cell_motion: {} rows for a cell {} imposed stress", ranges_.cell_motion.rows(),
+                          packing_.stress.is_imposed() ? "with" : "without"))
+      return false;
+    const Stress& stress = packing_.stress;
+    const Eigen::Matrix2d rate = ranges_.cell_motion;
+    const bool isotropic = !std::isnan(stress.pressure);
+    const bool is_held = (!isotropic && std::isnan(stress.xx) && rate(0, 0) != 0) ||
+                         (!isotropic && std::isnan(stress.yy) && rate(1, 1) != 0) ||
+                         (isotropic && rate(0, 0) != rate(1, 1)) ||
+                         (std::isnan(stress.xy) && rate(0, 1) != 0) || rate(1, 0) != 0;
+    return compare_.require(!is_held, "cell_motion: the cell deforms where no stress is imposed");
   }
 
   Eigen::VectorXd state(Eigen::Index k) const {
@@ -306,6 +325,8 @@ class Verifier {
       if (!contact.b.is_wall()) touch(contact.b.disk_id());
     }
     auto count = static_cast<std::int64_t>(force_bounds(packing_).size());
+    for (const double stress : packing_.stress.components())
+      count += !std::isnan(stress) && (!packing_.contacts.empty() || stress != 0) ? 1 : 0;
     for (int w = 0; w < packing_.wall_count(); ++w) {
       const Wall& wall = packing_[WallId(w)];
       bool touched = false;

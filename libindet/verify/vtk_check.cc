@@ -21,7 +21,8 @@ class VtkVerifier {
 
   Verification run() {
     std::int64_t feet = 0;
-    for (const Contact& contact : packing_.contacts) feet += contact.b.is_wall() ? 1 : 0;
+    for (const Contact& contact : packing_.contacts)
+      feet += contact.b.is_wall() || contact.has_image() ? 1 : 0;
     points_ = packing_.disk_count() + feet;
     check_counts();
     check_cells();
@@ -47,7 +48,7 @@ class VtkVerifier {
                          "NumberOfConnectivityIds");
   }
 
-  /// Each cell is a line from the centre of a to that of b, or to the next foot.
+  /// Each cell is a line from the centre of a to that of b, or to the next foot or image.
   void check_cells() {
     const auto ends = long_integers("Connectivity", 2 * cells());
     const auto offsets = long_integers("Offsets", cells() + 1);
@@ -56,7 +57,8 @@ class VtkVerifier {
     compare_.equal_count(offsets[0], 0, "the first of Offsets");
     for (std::size_t i = 0; i < cells(); ++i) {
       const Contact& contact = packing_.contacts[i];
-      const std::int64_t end = contact.b.is_wall() ? foot++ : contact.b.disk_id().value();
+      const std::int64_t end =
+          contact.b.is_wall() || contact.has_image() ? foot++ : contact.b.disk_id().value();
       constexpr int kLine = 3;
       compare_.require(types[i] == kLine && ends[2 * i] == contact.a.value() && ends[2 * i + 1] == end &&
                            offsets[i + 1] == 2 * static_cast<std::int64_t>(i + 1),
@@ -87,6 +89,12 @@ class VtkVerifier {
       check(i, packing_.disks[i].position, packing_.disks[i].radius, static_cast<std::int32_t>(i));
     }
     for (const Contact& contact : packing_.contacts) {
+      if (contact.has_image()) {
+        Vector2 image = packing_[contact.b.disk_id()].position;
+        if (packing_.cell.a) image += contact.image[0] * *packing_.cell.a;
+        if (packing_.cell.b) image += contact.image[1] * *packing_.cell.b;
+        check(i++, image, 0, contact.b.code());
+      }
       if (!contact.b.is_wall()) continue;
       const Wall& wall = packing_[contact.b.wall_id()];
       const Vector2 from_wall = packing_[contact.a].position - wall.point;

@@ -76,9 +76,77 @@ class Lammps(ImportTest):
         self.assertRegex(message, r"→ walls: on the \d+ disks that reach to no side of the packing \S+e-1\d mg is left; "
                                   r"\d+ disks at its sides may lack the force of a wall \(there are no walls at all\)")
 
-    def test_periodic_contacts_are_refused(self):
-        self.assertIn("contacts.dump:19: atoms 12 and 5 push each other, but their surfaces are 3.28 apart; contacts "
-                      "across a periodic boundary are not supported", self.lammps("lammps-cases/periodic", status=3))
+    def test_a_floor_that_is_periodic(self):
+        """Contacts are with the nearest images; the box is in the dump."""
+        shown = self.lammps("lammps-cases/periodic")
+        self.assertEqual((shown["walls"], shown["cell"]), (1, {"a": [5, 0], "b": None}))
+        self.assertLess(max(shown["force_residual"], shown["torque_residual"]), 1e-9)
+        self.assertEqual(shown["gravity"], [0, -1])
+        self.expect_simulated_forces_in_ranges()
+        with h5py.File(self.folder / "p.h5") as file:
+            image, gap = file["contacts/image"][:], file["contacts/gap"][:]
+            self.assertGreater(np.count_nonzero(image[:, 0]), 3)
+            self.assertFalse(image[:, 1].any())
+            self.assertLess(np.abs(gap).max(), 0.01)
+
+    def test_a_box_that_is_periodic_in_both_directions(self):
+        """At rest under a pressure of 20; LAMMPS printed pxx = 21.327286, pyy = 18.672714, pxy = 0.19426964."""
+        folder = "lammps-periodic"
+        arguments = ("--force-unit", "20")
+        message = self.lammps(folder, status=3, friction="0.3")
+        self.assertIn("there is no gravity", message)
+        self.assertRegex(message, r"the pressure times the largest diameter is 19\.\d")
+        shown = self.lammps(folder, *arguments, friction="0.3")
+        self.assertEqual((shown["disks"], shown["contacts"], shown["gravity"]), (80, 130, [0, 0]))
+        self.assertLess(max(shown["force_residual"], shown["torque_residual"]), 1e-9)
+        np.testing.assert_allclose(shown["stress_of_forces"], [[21.327286, 0.19426964], [0.19426964, 18.672714]],
+                                   rtol=0, atol=5e-7)
+        self.assertEqual(set(shown["stress"]), {"xx", "yy", "xy"})
+        self.assertLess(shown["stress_residual"], 1e-12)
+        ranges = self.expect_simulated_forces_in_ranges()
+        self.assertEqual(ranges["status"], "bounded")
+        with h5py.File(self.folder / "r.h5") as file:
+            wanted = file["ranges/R_max"][:]
+            cell = file["particles/disks/box/edges"][:]
+        # The same box with another edge: tilted by its own length, and as a general triclinic one.
+        copy = self.copy(folder)
+        for name in ("atoms.dump", "contacts.dump"):
+            lines = (copy / name).read_text().splitlines(keepends=True)
+            (low_x, high_x), (low_y, high_y) = (map(float, line.split()) for line in lines[5:7])
+            width = high_x - low_x
+            for kind, bounds in {"tilted": [f"{low_x!r} {high_x + width!r} {width!r}\n", f"{low_y!r} {high_y!r} 0\n", "-0.5 0.5 0\n"],
+                                 "general": [f"{width!r} 0 0 {low_x!r}\n", f"{width!r} {high_y - low_y!r} 0 {low_y!r}\n", "0 0 1 -0.5\n"]}.items():
+                (copy / kind).mkdir(exist_ok=True)
+                header = "ITEM: BOX BOUNDS " + ("xy xz yz" if kind == "tilted" else "abc origin") + " pp pp pp\n"
+                (copy / kind / name).write_text("".join([*lines[:4], header, *bounds, *lines[8:]]))
+        for kind in ("tilted", "general"):
+            self.lammps(copy / kind, *arguments, friction="0.3")
+            self.analyze()
+            with h5py.File(self.folder / "r.h5") as file:
+                np.testing.assert_allclose(file["particles/disks/box/edges"][:], [cell[0], cell[0] + cell[1]], rtol=1e-14)
+                np.testing.assert_allclose(file["ranges/R_max"][:], wanted, rtol=1e-9, atol=1e-9)
+        self.assertIn("gravity must be (0, 0)", self.lammps(folder, *arguments, "--gravity=0,-1", friction="0.3", status=3, output="q.h5"))
+        self.assertIn("a stress needs a cell that is periodic in both directions",
+                      self.lammps("lammps-cases/periodic", "--stress", "pressure=1", status=3, output="q.h5"))
+
+    def test_a_periodic_direction_that_no_contact_crosses(self):
+        copy = self.copy(self.PLAIN)
+        for name in ("atoms.dump", "contacts.dump"):
+            self.changed(copy / name, ("ITEM: BOX BOUNDS ff ff pp", "ITEM: BOX BOUNDS pp ff pp"))
+        shown = self.lammps(copy)
+        self.assertIsNone(shown["cell"])
+        self.assertTrue(any("no contact crosses that boundary" in text for text in shown["warnings"]))
+
+    def expect_simulated_forces_in_ranges(self):
+        """Certified throughout; verify finds nothing."""
+        shown = self.analyze()
+        with h5py.File(self.folder / "r.h5") as file:
+            unit = file["equilibrium"].attrs["force_unit"]
+            for name in "RT":
+                force = file[f"contacts/{name}"][:]
+                self.assertGreater((force - file[f"ranges/{name}_min"][:]).min(), -1e-6 * unit)
+                self.assertGreater((file[f"ranges/{name}_max"][:] - force).min(), -1e-6 * unit)
+        return shown
 
     def test_the_plane_x_z(self):
         """The same packing with z for y: of the columns and of the contact force, which stands in p1, p3."""
@@ -166,7 +234,9 @@ class Lammps(ImportTest):
                         np.testing.assert_allclose(p[item][()], q[item][()], rtol=1e-14, err_msg=item)
         folder = self.copy(self.PLAIN)
         self.with_column(folder, "y", "ys", lambda y: y / 12)
-        self.changed(folder / "atoms.dump", ("BOX BOUNDS ff", "BOX BOUNDS xy xz yz ff"))
+        text = (folder / "atoms.dump").read_text()
+        text = re.sub(r"BOX BOUNDS (ff .*)\n(.*)\n(.*)\n(.*)\n", r"BOX BOUNDS xy xz yz \1\n\2 0\n\3 0\n\4 0\n", text)
+        (folder / "atoms.dump").write_text(text)
         self.assertIn("ys is relative to a tilted box", self.lammps(folder, status=3, output="s.h5"))
 
     def test_more_columns_of_a_wall(self):

@@ -1,0 +1,37 @@
+#include "libindet/packing/cell.h"
+
+#include <algorithm>
+
+#include "libindet/packing/exact_sum.h"
+
+namespace indet {
+
+double Cell::area() const {
+  ExactSum sum;
+  sum.add_product(a->x(), b->y());
+  sum.add_product(-a->y(), b->x());
+  return std::abs(sum.value());
+}
+
+int Stress::imposed_count() const {
+  int count = 0;
+  for (const double component : components()) count += std::isnan(component) ? 0 : 1;
+  return count;
+}
+
+double Stress::largest() const {
+  double largest = 0;
+  for (const double component : components()) {
+    if (!std::isnan(component)) largest = std::max(largest, std::abs(component));
+  }
+  return largest;
+}
+
+Eigen::Matrix2d compression(const std::array<double, 4>& multipliers) {
+  const auto [xx, yy, xy, both] = multipliers;
+  Eigen::Matrix2d rate;
+  rate << xx + both / 2, xy, 0, yy + both / 2;
+  return rate;
+}
+
+}  // namespace indet
