@@ -6,8 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "libsim/loaded_walls.h"
-#include "libsim/periodic_cell.h"
+#include "libsim/unsupported.h"
 
 namespace indet::sim {
 namespace {
@@ -74,8 +73,7 @@ double cone_violation(const Packing& packing, const Eigen::VectorXd& forces) {
 
 Polisher::Polisher(const Packing& packing, const PolishOptions& options)
     : packing_(packing), options_(options), units_(packing.force_units()), solver_(packing) {
-  refuse_loaded_walls(packing, "the polish");
-  refuse_periodic_cell(packing, "the polish");
+  refuse_unsupported(packing, "the polish");
 }
 
 Polisher::Attempt Polisher::attempt(std::vector<ContactStatus> statuses) {

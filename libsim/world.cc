@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "libindet/base/error.h"
-#include "libsim/loaded_walls.h"
-#include "libsim/periodic_cell.h"
+#include "libsim/unsupported.h"
 
 namespace indet::sim {
 
@@ -92,8 +91,7 @@ void World::bring_to_rest() {
 }
 
 World world_of(const Packing& packing, const Friction& friction) {
-  refuse_loaded_walls(packing, "a simulation");
-  refuse_periodic_cell(packing, "a simulation");
+  refuse_unsupported(packing, "a simulation");
   World world;
   for (const Disk& disk : packing.disks) world.add(disk);
   for (const Contact& contact : packing.contacts) {

@@ -75,14 +75,6 @@ void begin_table(std::string& text, std::string_view header, bool has_more, std:
   text += '\n';
 }
 
-/// What follows the other columns of a contact where the packing has it.
-std::string rare_fields(const Packing& packing, const Contact& c) {
-  std::string text;
-  if (packing.has_levers()) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
-  if (packing.cell.is_periodic()) text += fmt::format(",{},{}", c.image[0], c.image[1]);
-  return text;
-}
-
 std::string disks_text(const Packing& packing, const FileIds& ids) {
   std::string text;
   const bool has_fixed = packing.fixed_disk_count() > 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -86,7 +87,8 @@ class ReactionProver {
     if (starts_from_stored(k, end)) {
       const Eigen::VectorXd forces =
           is_state ? r_.states.row(r_.vertex(k, end)).transpose() : r_.rays.row(r_.ray(k, end)).transpose();
-      preference = exact::edge_strengths(packing_, {forces.data(), static_cast<std::size_t>(forces.size())});
+      const std::span<const double> values(forces.data(), static_cast<std::size_t>(forces.size()));
+      preference = is_state ? exact::edge_strengths(packing_, values) : exact::edge_growths(packing_, values);
     }
     return ContactBasis::create(problem_, problem_.choose_basis(preference));
   }
