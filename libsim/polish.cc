@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "libsim/unsupported.h"
-
 namespace indet::sim {
 namespace {
 

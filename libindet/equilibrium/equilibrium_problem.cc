@@ -75,7 +75,7 @@ class RowNumbering {
         if (!needed[number][component] && wrench[k] == 0) continue;
         numbers_[number][component] = static_cast<int>(rows_.size());
         const double weight = k < 2 ? std::abs(disk.mass * packing.gravity[k]) : 0;
-        rows_.push_back({Body::disk(DiskId(i)), -1, k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
+        rows_.push_back({Body::disk(DiskId(i)), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
                          weight + std::abs(disk.load[k])});
       }
     }
@@ -87,7 +87,7 @@ class RowNumbering {
         const auto component = static_cast<std::size_t>(k);
         if (std::isnan(load) || (!needed_of_wall[number][component] && load == 0)) continue;
         wall_numbers_[number][component] = static_cast<int>(rows_.size());
-        rows_.push_back({Body::wall(WallId(w)), -1, k, units.internal_in_scene(), std::abs(load)});
+        rows_.push_back({Body::wall(WallId(w)), k, units.internal_in_scene(), std::abs(load)});
       }
     }
     if (packing.stress.is_imposed()) number_stress(packing, modes, units);
@@ -328,7 +328,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   for (std::size_t k = 0; k < problem.bounds.size(); ++k) {
     const ForceBound& bound = problem.bounds[k].bound;
     const double size = std::abs(bound.value) + (bound.is_two_sided() ? std::abs(bound.other) : 0);
-    problem.rows.push_back({.body = {}, .bound = static_cast<int>(k), .unit = unit, .load = size});
+    problem.rows.push_back({.body = {}, .unit = unit, .load = size, .bound = static_cast<int>(k)});
   }
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];

@@ -27,12 +27,12 @@ std::vector<ContactMode> natural_modes(const Packing& packing);
 /// What one equation balances, or which bound it poses.
 struct EquilibriumRow {
   Body body;
-  int bound = -1;     ///< ≥ 0: not an equation of a body, but of this bound (EquilibriumProblem::bounds)
   int component = 0;  ///< disk: 0 force x, 1 force y, 2 torque divided by the radius; wall: 0 n̂, 1 t̂; cell:
                       ///< 0 xx, 1 yy, 2 xy, 3 pressure of the stress times its area, divided by cell_length
   double unit = 1;  ///< of the equation as it would read in the scene's units: the internal unit of force,
                     ///< times the radius for a torque, times the cell's length for a stress
   double load = 0;  ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
+  int bound = -1;   ///< ≥ 0: no equation of a body but this one of the problem's bounds
 };
 
 /// A bound of a force as rows of the problem: F − s = lo, F + s = hi, or where a force has both
