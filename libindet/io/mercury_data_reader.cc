@@ -166,13 +166,22 @@ class DataReader {
     // The files round the overlap to ten digits of itself, the positions round it to ten of the radius.
     contact.gap = -overlap;
     contact.R = finite(contacts_, row, "normal_force");
-    contact.T = sign * finite(contacts_, row, "tangential_force") *
-                vector(row, {"tx", "ty", "tz"}).dot(contact.tangent());
+    contact.T = sign * tangential_force(row, contact);
     if (at_wall) {
       builder_.add_contact(contact, place_of(contacts_, row));
     } else {
       add_side(row, i, j, contact);
     }
+  }
+
+  /// F_t times the component of t along t̂, which is 1 or −1.
+  double tangential_force(int row, const Contact& contact) const {
+    const double force = finite(contacts_, row, "tangential_force");
+    const double along = vector(row, {"tx", "ty", "tz"}).dot(contact.tangent());
+    if (force != 0 && std::abs(std::abs(along) - 1) > tolerance::kSameWall) {
+      contacts_.fail(row, "(tx, ty, tz) must be a unit vector along the contact");
+    }
+    return force * along;
   }
 
   /// Takes one of the two rows of a pair.

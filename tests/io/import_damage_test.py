@@ -3,6 +3,8 @@
 Argument: the indet executable.
 """
 
+import bz2
+import lzma
 import pathlib
 import re
 import shutil
@@ -75,6 +77,19 @@ class Damage(ImportTest):
         self.read(path, "--format", "mercurydpm", "--gravity", "0,-1", "--balance-tol", "1e-3")
         path.write_text("")
         self.assertIn("copy.restart: the file is empty", self.read(path, "--format", "mercurydpm", status=3, output="q.h5"))
+
+    def test_files_that_are_no_text(self):
+        data = pathlib.Path(DATA, "lammps/atoms.dump").read_bytes()
+        path = self.folder / "other.dump"
+        for content, message in [(bytes.fromhex("28b52ffd") + data, "is packed by zstd; unpack it first (gzip alone is understood)"),
+                                 (lzma.compress(data), "is packed by xz; unpack it first"),
+                                 (bz2.compress(data), "is packed by bzip2; unpack it first"),
+                                 (b"PK\3\4" + data, "is packed by zip; unpack it first"),
+                                 (data[:100] + bytes(8) + data[100:], "is a binary file, not text")]:
+            path.write_bytes(content)
+            done = self.run_indet("import", "--format", "lammps", "--friction", "0.3", "--atoms", path, "--contacts", path,
+                                  "-o", "p.h5", status=3)
+            self.assertIn(f"other.dump: {message}", done.stderr)
 
     def test_all_disks_fixed(self):
         self.assertIn("all its atoms are fixed, so that there is nothing to balance",

@@ -236,6 +236,8 @@ class DataAndFstat(ImportTest):
                 (fstat, "0.5 56 -2", "0.5 56 -3", "copy.fstat:140: wall 2 is not the plane here that it is in line 122; curved"),
                 (fstat, "0 1 0 0 -0 -0 -0\n", "0 0.8 0.6 0 -0 -0 -0\n", "curved and composed walls"),
                 (fstat, "0 1 0 0 -0 -0 -0\n", "0 1 0 0.1 -0 -0 -0\n", "(nx, ny, nz) points out of the plane xy"),
+                (fstat, "0 0.003491115967 0 1 0 0 -0 -0 -0", "0 0.003491115967 0.001 1 0 0 0 0.5 0",
+                 "copy.fstat:122: (tx, ty, tz) must be a unit vector along the contact"),
                 (fstat, "0.003491115967", "nan", "column normal_force: must be a finite number, but is nan")]:
             with self.subTest(message):
                 for kind in ("data", "fstat"):
