@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -271,16 +272,14 @@ class DataReader {
   }
 
   void check_given_walls() const {
+    std::set<std::string> touched;
+    for (const auto& [k, unused] : walls_) touched.insert(std::to_string(k));
     for (const auto& [name, given] : given_) {
-      const bool touched = std::any_of(walls_.begin(), walls_.end(),
-                                       [&](const auto& wall) { return std::to_string(wall.first) == name; });
-      if (touched) continue;
-      std::vector<int> names;
-      for (const auto& [k, unused] : walls_) names.push_back(k);
-      throw InputError(fmt::format("{}: no particle touches wall {} ({}); {}", contacts_.source(), name,
-                                   given.text,
-                                   names.empty() ? "there are no walls at all"
-                                                 : fmt::format("the walls are {}", fmt::join(names, ", "))));
+      if (touched.contains(name)) continue;
+      throw InputError(
+          fmt::format("{}: no particle touches wall {} ({}); {}", contacts_.source(), name, given.text,
+                      touched.empty() ? "there are no walls at all"
+                                      : fmt::format("the walls are {}", fmt::join(touched, ", "))));
     }
   }
 

@@ -131,6 +131,7 @@ std::vector<RawFrame> frames_of_contacts(const TextFile& file) {
 std::string list_times(const std::vector<RawFrame>& frames) {
   constexpr std::size_t kListed = 10;
   std::vector<std::string> times;
+  times.reserve(frames.size());
   for (const RawFrame& frame : frames) times.push_back(fmt::format("{}", frame.time));
   const bool many = times.size() > kListed;
   if (many) times.erase(times.begin(), times.end() - kListed);

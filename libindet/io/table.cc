@@ -35,8 +35,8 @@ bool parse_whole(std::string_view text, T* value) {
   return error == std::errc() && stop == end && !text.empty();
 }
 
-/// Says what a file is that is no text, but may well be taken for one.
-void require_text(const std::filesystem::path& path, std::string_view bytes) {
+/// Says by what a file is packed that cannot be unpacked here.
+void require_unpacked(const std::filesystem::path& path, std::string_view bytes) {
   using namespace std::string_view_literals;
   constexpr std::pair<std::string_view, const char*> kPackers[] = {
       {"\x28\xB5\x2F\xFD"sv, "zstd"}, {"\3757zXZ"sv, "xz"}, {"BZh"sv, "bzip2"}, {"PK\x03\x04"sv, "zip"}};
@@ -45,8 +45,6 @@ void require_text(const std::filesystem::path& path, std::string_view bytes) {
     throw InputError(fmt::format("{}: is packed by {}; unpack it first (gzip alone is understood)",
                                  path.string(), packer));
   }
-  if (bytes.find('\0') != std::string_view::npos)
-    throw InputError(fmt::format("{}: is a binary file, not text", path.string()));
 }
 
 }  // namespace
@@ -68,7 +66,7 @@ std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) 
   if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF")) {
     throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", path.string()));
   }
-  require_text(path, *text);
+  require_unpacked(path, *text);
   if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
   require_utf8(path, *text);
   return text;
