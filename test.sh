@@ -38,7 +38,8 @@ case ${1:-} in
   --tidy)
     configure release
     git ls-files 'libindet/*.cc' 'libsim/*.cc' 'apps/*.cc' |
-      xargs --max-procs="$jobs" --max-args=4 clang-tidy --quiet -p build/release --extra-arg=-Wno-unknown-warning-option 2>/dev/null
+      xargs --max-procs="$jobs" --max-args=4 clang-tidy --quiet -p build/release --extra-arg=-Wno-unknown-warning-option \
+        --extra-arg=-Wno-unused-command-line-argument 2>/dev/null
     ;;
   *) sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac

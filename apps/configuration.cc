@@ -135,16 +135,27 @@ toml::table settings_of(const CLI::App& command) {
   return table;
 }
 
-}  // namespace
-
-CLI::Validator not_negative() {
-  return {[](const std::string& text) -> std::string {
+/// A number that is as `accept` says; `condition` says it to people. (CLI11 prints the largest double
+/// with all its digits.)
+CLI::Validator number_that(bool (*accept)(double), const char* condition, const char* name) {
+  return {[accept, condition](const std::string& text) -> std::string {
             double value = 0;
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
             const bool is_number = error == std::errc() && end == text.data() + text.size();
-            return is_number && value >= 0 ? "" : fmt::format("\"{}\" is not a number ≥ 0", text);
+            return is_number && accept(value) ? ""
+                                              : fmt::format("\"{}\" is not a number {}", text, condition);
           },
-          "NONNEGATIVE"};
+          name};
+}
+
+}  // namespace
+
+CLI::Validator not_negative() {
+  return number_that([](double value) { return value >= 0; }, "≥ 0", "NONNEGATIVE");
+}
+
+CLI::Validator positive() {
+  return number_that([](double value) { return value > 0; }, "> 0", "POSITIVE");
 }
 
 void name_environment_variables(CLI::App& command) {

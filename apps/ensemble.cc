@@ -212,7 +212,7 @@ Command add_ensemble(CLI::App& root) {
       ->required();
   CLI::Option* seeds =
       command->add_option("--seeds", o->config.seeds, "Number of seeds; each gives one packing per protocol")
-          ->check(CLI::PositiveNumber)
+          ->check(positive())
           ->capture_default_str();
   command->add_option("--first-seed", o->config.first_seed, "The first seed; the others follow it")
       ->check(not_negative())
@@ -236,7 +236,7 @@ Command add_ensemble(CLI::App& root) {
   command
       ->add_option("--time-limit", o->config.time_limit,
                    "Largest simulated time of each packing (0: 6 sqrt(Ly/g), as in the paper)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   command
       ->add_option("--alpha", o->config.contact_dynamics.law.alpha,
@@ -246,7 +246,7 @@ Command add_ensemble(CLI::App& root) {
   command
       ->add_option("--start-sweeps", o->config.contact_dynamics.start_sweeps,
                    "cd2: largest number of sweeps of the first step, which starts from no forces")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   command
       ->add_option("--samples", o->config.sampling.samples,

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "apps/command.h"
 #include "apps/configuration.h"
 #include "apps/output_files.h"
 #include "libindet/base/error.h"
-#include "libindet/io/liggghts_reader.h"
+#include "libindet/io/given_walls.h"
 
 namespace indet::app {
 namespace {
@@ -51,6 +52,14 @@ auto parsed(const char* option, const Parse& parse) {
 
 bool takes(const ImportFormat& format, const std::string& option) {
   return std::find(format.options.begin(), format.options.end(), option) != format.options.end();
+}
+
+/// An empty value, as of a variable of the shell that is not set, would be the same as no option.
+void check_values(const ImportArguments& arguments, const CLI::App& command) {
+  for (const auto& [option, has_value] : {std::pair("--timestep", arguments.dumps.timestep.has_value()),
+                                          std::pair("--time", arguments.time.has_value())}) {
+    if (command.count(option) > 0 && !has_value) fail(fmt::format("{}: the value is empty", option));
+  }
 }
 
 /// Every option that is given must be one that the format takes.
@@ -128,7 +137,7 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
       .add_option(
           "--force-unit", arguments.force_unit,
           "Unit of printed forces; needed without gravity (default: the mean weight of a disk; not csv)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       .add_option(
           "--stress", arguments.stress,
@@ -146,9 +155,20 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
                   "(docs/importing.md)")
       ->delimiter(',');
   command
-      .add_option("--walls", arguments.walls,
-                  "liggghts: where the primitive walls of the fixes lie, as NAME=x:0,NAME=y:0.1,…")
+      .add_option(
+          "--walls", arguments.walls,
+          "liggghts: where the primitive walls of the fixes lie, as NAME=x:0,NAME=y:0.1,…; mercurydpm "
+          "(.data): the exact planes of walls, where they should not follow from the contacts")
       ->delimiter(',');
+  command
+      .add_option(
+          "--density", arguments.density,
+          "mercurydpm (.data): density of the particles, sphere=D (per volume) or disk=D (per area), or "
+          "by species: sphere:0=D,sphere:1=D")
+      ->delimiter(',');
+  command.add_option(
+      "--time", arguments.time,
+      "mercurydpm (.data): time of the frame to read (default: the last that both files have)");
   command
       .add_option("--balance-tol", arguments.balance_tolerance,
                   "Largest net force (mg) or torque (mg r) on a disk that is accepted as balanced (default: "
@@ -169,6 +189,7 @@ ImportOrder import_order(const ImportArguments& arguments, const CLI::App& comma
     if (format.name == arguments.format) order.format = &format;
   }
   check_options(*order.format, command);
+  check_values(arguments, command);
   check_input(*order.format, arguments);
   ImportSettings& settings = order.request.settings;
   order.request.input = arguments.input;
@@ -178,6 +199,8 @@ ImportOrder import_order(const ImportArguments& arguments, const CLI::App& comma
   order.request.walls = arguments.walls;
   order.levers = parsed("--lever", [&] { return LeverRule::parse(arguments.lever); });
   order.stress = parsed("--stress", [&] { return StressRule::parse(arguments.stress); });
+  settings.density = parsed("--density", [&] { return DensityRule::parse(arguments.density); });
+  order.request.time = arguments.time;
   settings.columns = parse_columns(arguments.columns);
   settings.plane = arguments.plane == "xz" ? Plane::xz() : Plane::xy();
   settings.force_unit = arguments.force_unit;

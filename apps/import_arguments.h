@@ -14,10 +14,11 @@ namespace indet::app {
 struct ImportArguments {
   std::string format, input, output;
   DumpFiles dumps;
-  std::vector<std::string> friction, lever, fixed, stress, columns, walls;
+  std::vector<std::string> friction, lever, fixed, stress, columns, walls, density;
   std::vector<double> gravity = {0, -1};
   double force_unit = 0;
   std::string plane = "xy";
+  std::optional<double> time;
   std::optional<double> balance_tolerance;
   bool overwrite = false;
 };

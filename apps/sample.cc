@@ -10,6 +10,7 @@
 #include "apps/bridge/perturb_record.h"
 #include "apps/command.h"
 #include "apps/condition.h"
+#include "apps/configuration.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/sample_uniform.h"
@@ -147,7 +148,7 @@ void add_uniform_options(CLI::App& command, UniformSettings& uniform) {
       ->capture_default_str()
       ->group(group);
   command.add_option("--states", uniform.states, "Number of sampled states to write to the file")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str()
       ->group(group);
   command
@@ -188,7 +189,7 @@ Command add_sample(CLI::App& root) {
           "--chains", options->chains,
           "Number of independent chains that the samples are drawn in (0: one for perturb, which starts "
           "from the packing's forces; four for uniform, which start far apart)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
   add_condition_option(*command, options->conditions);

@@ -13,6 +13,7 @@
 
 #include "apps/bridge/simulation_values.h"
 #include "apps/command.h"
+#include "apps/configuration.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
@@ -279,10 +280,10 @@ Command add_simulate(CLI::App& root) {
   command
       ->add_option("--every", options->every,
                    "Store the trajectory, a frame at each such interval of simulated time")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command
       ->add_option("--checkpoint", options->checkpoint, "Seconds of run time between checkpoints (0: none)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   command->add_flag("--resume", options->resume,
                     "Go on from the checkpoint of an interrupted run, OUTPUT.checkpoint, if there is one");

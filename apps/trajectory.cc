@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/command.h"
+#include "apps/configuration.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "libindet/base/error.h"
@@ -67,11 +68,11 @@ Command add_trajectory(CLI::App& root) {
   command->add_option("-o,--output", options->output, "SVG file to write")->required();
   add_overwrite_option(*command, options->overwrite);
   command->add_option("--frames", options->frames, "Number of frames that are drawn side by side")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   command->add_flag("--animate", options->animate, "Draw one animated picture of all frames instead");
   command->add_option("--seconds", options->seconds, "Duration of the animation in seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   return {command, [options](const Context& context) { return run(*options, context); }};
 }

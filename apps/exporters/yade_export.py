@@ -25,7 +25,7 @@ def export(folder, scene=None):
         from yade.wrapper import Omega
         scene = Omega()
     if scene.periodic:
-        raise ValueError('a periodic scene cannot be exported')
+        raise ValueError('a periodic scene cannot be exported: contacts across a periodic boundary are not read')
     bodies = [_body(body) for body in scene.bodies if body is not None]
     interactions = [_interaction(interaction) for interaction in scene.interactions if interaction.isReal]
     os.makedirs(folder, exist_ok=True)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "libindet/base/error.h"
@@ -25,13 +26,15 @@ double checked(double friction, std::string_view text) {
       fmt::format("friction \"{}\": the forms are 0.3, disk=0.4, wall=0, wall:NAME=0.2, type:1-2=0.3", item));
 }
 
+bool is_type(std::int64_t number) { return number >= 0 && number <= std::numeric_limits<int>::max(); }
+
 /// "1-2", the smaller one first.
 std::pair<int, int> parse_types(std::string_view text, const std::string& item) {
   const std::size_t dash = text.find('-');
   std::int64_t first = 0;
   std::int64_t second = 0;
   if (dash == std::string_view::npos || !parse_number(text.substr(0, dash), &first) ||
-      !parse_number(text.substr(dash + 1), &second)) {
+      !parse_number(text.substr(dash + 1), &second) || !is_type(first) || !is_type(second)) {
     refuse(item);
   }
   return std::minmax(static_cast<int>(first), static_cast<int>(second));

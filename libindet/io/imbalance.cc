@@ -87,11 +87,14 @@ class CauseSearch {
       const Vector2 change = disk.mass / unit * (gravity - packing_.gravity);
       left = std::max(left, (residual_.row(i).head<2>().transpose() + change).norm());
     }
-    add(left, fmt::format(
-                  "gravity: --gravity {:.6g},{:.6g}, which most disks want instead of {:g},{:g}, would leave "
-                  "{:.2g} mg",
-                  without_noise(gravity.x(), gravity), without_noise(gravity.y(), gravity),
-                  packing_.gravity.x(), packing_.gravity.y(), left));
+    const std::string wanted = fmt::format("{:.6g},{:.6g}", without_noise(gravity.x(), gravity),
+                                           without_noise(gravity.y(), gravity));
+    const std::string taken = fmt::format("{:.6g},{:.6g}", packing_.gravity.x(), packing_.gravity.y());
+    add(left,
+        wanted == taken
+            ? fmt::format("gravity: most disks want that which was taken, {}", taken)
+            : fmt::format("gravity: --gravity {}, which most disks want instead of {}, would leave {:.2g} mg",
+                          wanted, taken, left));
   }
 
   void look_for_walls() {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ImportRequest {
   std::filesystem::path input;     ///< A file or folder, of formats that are one.
   DumpFiles dumps;                 ///< Of formats that are two dumps.
   std::vector<std::string> walls;  ///< "NAME=x:POSITION", of formats that do not say where walls are.
+  std::optional<double> time;      ///< Of the frame, in formats whose frames have a time.
   ImportSettings settings;
 };
 

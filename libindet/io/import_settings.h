@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "libindet/io/density_rule.h"
 #include "libindet/io/fixed_rule.h"
 #include "libindet/io/friction_rule.h"
 #include "libindet/io/plane.h"
@@ -15,6 +16,7 @@ namespace indet {
 struct ImportSettings {
   FrictionRule friction{};           ///< Needed unless the files have it.
   FixedRule fixed{};                 ///< Beside those that the files call fixed.
+  DensityRule density{};             ///< Needed, and taken, where files have no masses.
   std::optional<Vector2> gravity{};  ///< In the axes of `plane`; none: that of the files, else (0, −1).
   double force_unit = 0;             ///< Unit of force of printed numbers; 0: the mean weight.
   Plane plane{};

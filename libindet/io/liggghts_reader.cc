@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/import_format.h"
+#include "libindet/io/in_plane.h"
 #include "libindet/io/lammps_atoms.h"
 #include "libindet/io/lammps_columns.h"
 #include "libindet/io/lammps_warnings.h"
@@ -31,18 +33,11 @@ std::string find_compute(const Table& table) {
 
 std::string column_of(const std::string& prefix, int i) { return fmt::format("{}[{}]", prefix, i); }
 
-/// The component of a row's vector that points out of the plane must be nothing beside the others.
-Vector2 force_in_plane(const Table& table, int row, const std::string& prefix, int first,
-                       const Plane& plane) {
-  const auto component = [&](int axis) { return table.number(row, column_of(prefix, first + axis)); };
-  const Vector2 force(component(plane.first), component(plane.second));
-  if (std::abs(component(plane.normal)) > tolerance::kOutOfPlane * force.norm()) {
-    table.fail(row,
-               fmt::format("the force of {} points out of the plane {}; only packings in a plane can be read "
-                           "(--plane xy or xz)",
-                           prefix, plane.name()));
-  }
-  return force;
+/// The force in three columns of a row.
+Vector2 force_of(const Table& table, int row, const std::string& prefix, int first, const Plane& plane) {
+  Eigen::Vector3d force;
+  for (int axis = 0; axis < 3; ++axis) force[axis] = table.number(row, column_of(prefix, first + axis));
+  return in_plane(force, plane, place_of(table, row), "the force of " + prefix);
 }
 
 void read_pairs(const Table& table, const Plane& plane, PackingBuilder& builder) {
@@ -58,7 +53,7 @@ void read_pairs(const Table& table, const Plane& plane, PackingBuilder& builder)
       place.fail("the contact lies across a periodic boundary, which is not supported");
     }
     Contact contact = builder.contact(atom(1), Body::disk(atom(2)), place);
-    PackingBuilder::project(contact, force_in_plane(table, row, prefix, 4, plane));
+    PackingBuilder::project(contact, force_of(table, row, prefix, 4, plane));
     builder.add_contact(contact, place);
   }
 }
@@ -80,7 +75,7 @@ void read_wall(const std::string& name, const GivenWall& given, const Table& tab
   std::optional<WallId> wall;
   for (int i = 0; i < packing.disk_count(); ++i) {
     const int row = rows[static_cast<std::size_t>(i)];
-    const Vector2 force = force_in_plane(table, row, prefix, 1, plane);
+    const Vector2 force = force_of(table, row, prefix, 1, plane);
     if (force.isZero(0)) continue;
     const Place place = place_of(table, row);
     const double side = packing[DiskId(i)].position[given.axis] - given.position > 0 ? 1 : -1;
@@ -109,8 +104,8 @@ void read_wall(const std::string& name, const GivenWall& given, const Table& tab
   }
 }
 
-void read_walls(const Table& table, const std::map<std::string, GivenWall>& walls, const Plane& plane,
-                const std::vector<int>& rows, PackingBuilder& builder) {
+void read_walls(const Table& table, const GivenWalls& walls, const Plane& plane, const std::vector<int>& rows,
+                PackingBuilder& builder) {
   const std::vector<std::string> fixes = force_fixes(table);
   for (const auto& [name, given] : walls) {
     if (std::find(fixes.begin(), fixes.end(), name) == fixes.end()) {
@@ -127,7 +122,7 @@ void read_walls(const Table& table, const std::map<std::string, GivenWall>& wall
       continue;
     }
     for (int row = 0; row < table.rows(); ++row) {
-      if (force_in_plane(table, row, "f_force_" + name, 1, plane).isZero(0)) continue;
+      if (force_of(table, row, "f_force_" + name, 1, plane).isZero(0)) continue;
       table.fail(
           row,
           fmt::format("wall {} pushes this atom, but no file says where it is: give its plane with --walls "
@@ -145,29 +140,7 @@ void read_walls(const Table& table, const std::map<std::string, GivenWall>& wall
 
 }  // namespace
 
-std::map<std::string, GivenWall> parse_walls(const std::vector<std::string>& items, const Plane& plane) {
-  std::map<std::string, GivenWall> walls;
-  for (const std::string& item : items) {
-    const std::size_t equals = item.find('=');
-    const std::size_t colon = item.find(':', equals == std::string::npos ? 0 : equals);
-    GivenWall wall{.text = item};
-    const bool has_form = equals != std::string::npos && equals > 0 && colon == equals + 2 &&
-                          parse_number(std::string_view(item).substr(colon + 1), &wall.position) &&
-                          std::isfinite(wall.position);
-    const char letter = has_form ? item[equals + 1] : '\0';
-    if (letter != Plane::letter(plane.first) && letter != Plane::letter(plane.second)) {
-      throw InputError(fmt::format("wall \"{}\" must have the form NAME={}:POSITION or NAME={}:POSITION",
-                                   item, Plane::letter(plane.first), Plane::letter(plane.second)));
-    }
-    wall.axis = letter == Plane::letter(plane.first) ? 0 : 1;
-    if (!walls.emplace(item.substr(0, equals), wall).second) {
-      throw InputError(fmt::format("wall {} is given twice", item.substr(0, equals)));
-    }
-  }
-  return walls;
-}
-
-ImportedPacking read_liggghts(const DumpFiles& files, const std::map<std::string, GivenWall>& walls,
+ImportedPacking read_liggghts(const DumpFiles& files, const GivenWalls& walls,
                               const ImportSettings& settings) {
   const LammpsColumns names(settings.columns, settings.plane);
   for (const char* key : {"atom1", "atom2", "fx", "fy", "p1", "p2", "mu"}) {

@@ -17,6 +17,8 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/import_format.h"
+#include "libindet/io/in_plane.h"
+#include "libindet/io/mercury_data_reader.h"
 #include "libindet/io/packing_builder.h"
 #include "libindet/io/table.h"
 
@@ -79,16 +81,17 @@ class MercuryReader {
         text_(read_text(file)),
         lines_(*text_),
         plane_(settings.plane),
+        has_gravity_(settings.gravity.has_value()),
         builder_("import mercurydpm", "particle", source_, settings) {}
 
   ImportedPacking read() {
-    next();
+    if (!advance()) throw InputError(fmt::format("{}: the file is empty", source_));
     if (line_->kind() != "MercuryDPM" && line_->kind() != "restart_version") {
       line_->place().fail("this is not a restart file of MercuryDPM: it does not begin with MercuryDPM");
     }
     while (line_->kind() != "Species" && line_->kind() != "Walls") {
-      if (line_->has("gravity")) gravity_ = line_->vector("gravity");
-      if (line_->has("particleDimensions")) dimensions_ = line_->integer("particleDimensions");
+      if (line_->has("gravity")) read_gravity();
+      if (line_->has("particleDimensions")) read_dimensions();
       next();
     }
     for (; line_->kind() != "Walls"; next()) read_species();
@@ -105,7 +108,7 @@ class MercuryReader {
     for (; line_->kind() != "Interactions"; next()) {
     }
     section("Interactions", [this] { read_interaction(); });
-    return builder_.build(gravity_ ? in_plane(*gravity_) : Vector2(0, -1));
+    return builder_.build(gravity_.value_or(Vector2(0, -1)));
   }
 
  private:
@@ -127,11 +130,23 @@ class MercuryReader {
   template <class Take>
   void section(std::string_view name, const Take& take) {
     const int count = line_->integer(name);
+    if (count < 0) line_->place().fail(fmt::format("{} must not be negative, but is {}", name, count));
     for (int i = 0; i < count; ++i) {
       next();
       take();
     }
     advance();
+  }
+
+  void read_gravity() {
+    if (has_gravity_) return;  // that of the settings is taken
+    gravity_ =
+        in_plane(line_->vector("gravity"), plane_, line_->place(), "gravity (which --gravity replaces)");
+  }
+
+  void read_dimensions() {
+    dimensions_ = line_->integer("particleDimensions");
+    if (dimensions_ != 2 && dimensions_ != 3) line_->place().fail("particleDimensions must be 2 or 3");
   }
 
   void read_species() {
@@ -150,7 +165,7 @@ class MercuryReader {
     return found == friction_.end() ? kNaN : found->second;
   }
 
-  Vector2 in_plane(const Eigen::Vector3d& vector) const {
+  Vector2 components(const Eigen::Vector3d& vector) const {
     return {vector[plane_.first], vector[plane_.second]};
   }
 
@@ -159,16 +174,16 @@ class MercuryReader {
     const Eigen::Vector3d position = line.vector("position");
     Disk disk;
     disk.id = line.integer("id");
-    disk.position = in_plane(position);
+    disk.position = components(position);
     disk.radius = line.number("radius");
     const double inverse = line.number("invMass");
     disk.fixed = inverse == 0;
     disk.mass = disk.fixed ? 0 : 1 / inverse;
     disk.inertia = (dimensions_ == 2 ? 0.5 : 0.4) * disk.mass * disk.radius * disk.radius;
-    disk.velocity = in_plane(line.vector("velocity"));
+    disk.velocity = components(line.vector("velocity"));
     disk.angular_velocity = plane_.turned(line.vector("angularVelocity")[plane_.normal]);
     if (!height_) height_ = position[plane_.normal];
-    if (std::abs(position[plane_.normal] - *height_) > tolerance::kSameWall * disk.radius) {
+    if (!(std::abs(position[plane_.normal] - *height_) <= tolerance::kSameWall * std::abs(disk.radius))) {
       line.place().fail(
           fmt::format("particle {} lies {:.3g} off the plane {} of the first one; only packings in a "
                       "plane can be read (--plane xy or xz)",
@@ -192,8 +207,8 @@ class MercuryReader {
       line.place().fail(fmt::format("wall {} is not perpendicular to the plane {}", id, plane_.name()));
     }
     const Wall wall{.id = builder_.packing().wall_count(),
-                    .point = in_plane(line.vector("position")),
-                    .normal = -in_plane(outwards).stableNormalized(),
+                    .point = components(line.vector("position")),
+                    .normal = -components(outwards).stableNormalized(),
                     .name = std::to_string(id)};
     return wall_ids_.emplace(id, builder_.add_wall(wall, {}, line.place())).first->second;
   }
@@ -202,20 +217,14 @@ class MercuryReader {
     const Keywords& line = *line_;
     const bool at_wall = line.has("particleWallIds");
     const char* const ids = at_wall ? "particleWallIds" : "particleIds";
-    const Eigen::Vector3d force = line.vector("force");
-    if (std::abs(force[plane_.normal]) > tolerance::kOutOfPlane * force.norm()) {
-      line.place().fail(
-          fmt::format("the force points out of the plane {}; only packings in a plane can be read "
-                      "(--plane xy or xz)",
-                      plane_.name()));
-    }
+    const Vector2 force = in_plane(line.vector("force"), plane_, line.place(), "the force");
     const DiskId a = builder_.disk(line.integer(ids, 0), line.place());
     const int other = line.integer(ids, 1);
     const Body b = at_wall ? Body::wall(wall(other)) : Body::disk(builder_.disk(other, line.place()));
     Contact contact = builder_.contact(a, b, line.place());
     contact.mu = friction(builder_.type(a),
                           at_wall ? walls_.at(other).integer("indSpecies") : builder_.type(b.disk_id()));
-    PackingBuilder::project(contact, in_plane(force));
+    PackingBuilder::project(contact, force);
     builder_.add_contact(contact, line.place());
   }
 
@@ -223,15 +232,27 @@ class MercuryReader {
   std::shared_ptr<const std::string> text_;
   LineReader lines_;
   Plane plane_;
+  bool has_gravity_;
   PackingBuilder builder_;
   std::optional<Keywords> line_;
-  std::optional<Eigen::Vector3d> gravity_;
+  std::optional<Vector2> gravity_;
   int dimensions_ = 3;
   std::optional<double> height_;  ///< Of all centres, along the normal of the plane.
   std::map<std::pair<int, int>, double> friction_;
   std::map<int, Keywords> walls_;
   std::map<int, WallId> wall_ids_;
 };
+
+/// A restart file has what these options say.
+void require_restart_options(const ImportRequest& request) {
+  for (const auto& [option, given] :
+       {std::pair("--density", !request.settings.density.empty()),
+        std::pair("--time", request.time.has_value()), std::pair("--walls", !request.walls.empty())}) {
+    if (!given) continue;
+    throw InputError(fmt::format("{}: {} is for .data and .fstat files; a restart file has it itself",
+                                 request.input.string(), option));
+  }
+}
 
 }  // namespace
 
@@ -241,14 +262,25 @@ ImportedPacking read_mercury(const std::filesystem::path& file, const ImportSett
 
 ImportFormat mercury_format() {
   return {.name = "mercurydpm",
-          .input = "the .restart file",
-          .options = {"--friction", "--gravity", "--fixed", "--force-unit", "--plane"},
+          .input = "the .restart file, or one of .data and .fstat",
+          .options = {"--friction", "--gravity", "--fixed", "--force-unit", "--plane", "--density", "--time",
+                      "--walls"},
           .documented = {Lever::kMidOverlap, Lever::kMidOverlap},
           .lacks_friction = "",
           .files = [](const ImportRequest& request) -> std::vector<std::filesystem::path> {
+            if (const auto files = MercuryFiles::of(request.input)) return {files->data, files->fstat};
             return {request.input};
           },
-          .read = [](const ImportRequest& request) { return read_mercury(request.input, request.settings); }};
+          .read =
+              [](const ImportRequest& request) {
+                if (const auto files = MercuryFiles::of(request.input)) {
+                  return read_mercury_data(*files, request.time,
+                                           parse_walls(request.walls, request.settings.plane),
+                                           request.settings);
+                }
+                require_restart_options(request);
+                return read_mercury(request.input, request.settings);
+              }};
 }
 
 }  // namespace indet

@@ -58,6 +58,10 @@ void PackingBuilder::close_disks() {
   }
   found_disks_.clear();
   check_fixed_names();
+  if (packing_.free_disk_count() == 0) {
+    throw InputError(
+        fmt::format("{}: all its {} are fixed, so that there is nothing to balance", source_, plural()));
+  }
   const auto defect = find_defect(packing_);
   if (defect && defect->part == PackingPart::kDisk) {
     disk_places_[static_cast<std::size_t>(defect->index)].fail(defect->reason);
@@ -116,14 +120,21 @@ void PackingBuilder::project(Contact& contact, const Vector2& force) {
   contact.T = force.dot(contact.tangent());
 }
 
+std::string PackingBuilder::plural() const {
+  return noun_.ends_with('y') ? noun_.substr(0, noun_.size() - 1) + "ies" : noun_ + "s";
+}
+
 std::string PackingBuilder::bodies_of(const Contact& contact) const {
   const std::int32_t a = packing_[contact.a].id;
   if (contact.b.is_wall())
     return fmt::format("{} {} and wall {}", noun_, a, packing_[contact.b.wall_id()].name);
-  return fmt::format("{}s {} and {}", noun_, a, packing_[contact.b.disk_id()].id);
+  return fmt::format("{} {} and {}", plural(), a, packing_[contact.b.disk_id()].id);
 }
 
 void PackingBuilder::add_contact(const Contact& contact, const Place& place) {
+  if (!std::isfinite(contact.R) || !std::isfinite(contact.T)) {
+    place.fail(fmt::format("the force of {} is not a finite number", bodies_of(contact)));
+  }
   const double reach =
       packing_[contact.a].radius + (contact.b.is_wall() ? 0 : packing_[contact.b.disk_id()].radius);
   if (contact.gap > tolerance::kPushingDistance * reach && (contact.R != 0 || contact.T != 0)) {
@@ -229,14 +240,14 @@ void PackingBuilder::warn_of_what_was_left_out() {
   }
   if (apart_ > 0) {
     warn(fmt::format("{}: left out {}, which neither touch nor transmit a force", apart_place_.source,
-                     counted(apart_, "pair of " + noun_ + "s", "pairs of " + noun_ + "s")));
+                     counted(apart_, "pair of " + plural(), "pairs of " + plural())));
   }
   const auto idle = std::count_if(packing_.contacts.begin(), packing_.contacts.end(),
                                   [](const Contact& c) { return c.R == 0 && c.T == 0; });
   if (idle > 0) {
     warn(fmt::format(
         "{}: kept {}, which transmit no force", contacts_.front().place.source,
-        counted(idle, "contact whose " + noun_ + "s touch", "contacts whose " + noun_ + "s touch")));
+        counted(idle, "contact whose " + plural() + " touch", "contacts whose " + plural() + " touch")));
   }
 }
 

@@ -35,8 +35,8 @@ class PackingBuilder {
 
   /// `type`: of the material, −1 if there is none. A disk is fixed if it says so or the settings do.
   void add_disk(const Disk& disk, int type, const Place& place);
-  /// Sorts the disks and checks them. Throws InputError if there is none, an id is given twice, a number
-  /// cannot be, or the rule of fixed disks names one that is not there.
+  /// Sorts the disks and checks them. Throws InputError if there is none that moves, an id is given twice, a
+  /// number cannot be, or the rule of fixed disks names one that is not there.
   void close_disks();
 
   /// `names`: by which a friction may name it, beside its own name (of the fix that has several planes).
@@ -53,8 +53,8 @@ class PackingBuilder {
   Contact contact(DiskId a, Body b, const Place& place) const;
   /// Sets R and T to the projections on n̂ and t̂ of the force on a.
   static void project(Contact& contact, const Vector2& force);
-  /// Takes a contact, or leaves it out. Throws InputError if its bodies push each other across a distance, or
-  /// it was given before with another force.
+  /// Takes a contact, or leaves it out. Throws InputError if its force is not finite, its bodies push each
+  /// other across a distance, or it was given before with another force.
   void add_contact(const Contact& contact, const Place& place);
 
   /// Contacts are with the nearest images of disks. Precondition: close_disks(), no contact yet.
@@ -90,6 +90,7 @@ class PackingBuilder {
   void require_force_unit() const;
   void find_defects() const;
   void warn_of_what_was_left_out();
+  std::string plural() const;  ///< Of the noun.
   std::string bodies_of(const Contact& contact) const;
 
   std::string noun_, source_;

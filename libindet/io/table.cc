@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -34,6 +35,18 @@ bool parse_whole(std::string_view text, T* value) {
   return error == std::errc() && stop == end && !text.empty();
 }
 
+/// Says by what a file is packed that cannot be unpacked here.
+void require_unpacked(const std::filesystem::path& path, std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::pair<std::string_view, const char*> kPackers[] = {
+      {"\x28\xB5\x2F\xFD"sv, "zstd"}, {"\3757zXZ"sv, "xz"}, {"BZh"sv, "bzip2"}, {"PK\x03\x04"sv, "zip"}};
+  for (const auto& [start, packer] : kPackers) {
+    if (!bytes.starts_with(start)) continue;
+    throw InputError(fmt::format("{}: is packed by {}; unpack it first (gzip alone is understood)",
+                                 path.string(), packer));
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) {
@@ -53,6 +66,7 @@ std::shared_ptr<const std::string> read_text(const std::filesystem::path& path) 
   if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF")) {
     throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", path.string()));
   }
+  require_unpacked(path, *text);
   if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
   require_utf8(path, *text);
   return text;

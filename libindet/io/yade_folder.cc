@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -26,6 +27,13 @@ class Fields {
         place_.fail(fmt::format("there are more fields than the {} columns", columns.size()));
       }
     }
+    if (column < columns.size()) missing_ = columns[column];
+  }
+
+  /// Fails if a field is missing: all behind it would stand in the wrong columns.
+  void require_all() const {
+    if (missing_.empty()) return;
+    place_.fail(fmt::format("there are fewer fields than columns: none is left for {}", missing_));
   }
 
   bool has(const std::string& name) const { return values_.contains(name); }
@@ -64,6 +72,7 @@ class Fields {
  private:
   Place place_;
   std::map<std::string, std::string_view> values_;
+  std::string missing_;  ///< The first column without a field; "" if there is none.
 };
 
 /// Lines of a file that are neither blank nor comments, and what the comments say.
@@ -143,6 +152,7 @@ YadeBody read_body(const Fields& fields) {
     body.extents = fields.vector("hx", "hy", "hz");
     body.turned = fields.number_or("turned", 0) != 0;
   } else if (body.shape == "Sphere") {
+    fields.require_all();
     body.radius = fields.number("radius");
     body.mass = fields.number("mass");
     body.inertia = fields.number(fields.has("inertia") ? "inertia" : "inertia_zz");
@@ -154,6 +164,7 @@ YadeBody read_body(const Fields& fields) {
 }
 
 YadeInteraction read_interaction(const Fields& fields) {
+  fields.require_all();
   YadeInteraction interaction;
   interaction.place = fields.place();
   interaction.first = fields.integer("id1");
@@ -162,6 +173,7 @@ YadeInteraction read_interaction(const Fields& fields) {
   interaction.normal_force = fields.vector("fnx", "fny", "fnz");
   interaction.shear_force = fields.vector("fsx", "fsy", "fsz");
   interaction.overlap = fields.number("pd");
+  if (!std::isfinite(interaction.overlap)) fields.place().fail("pd must be a finite number");
   interaction.friction = fields.number_or("tanphi", kNaN);
   return interaction;
 }

@@ -11,6 +11,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/import_format.h"
+#include "libindet/io/in_plane.h"
 #include "libindet/io/yade_scene.h"
 
 namespace indet {
@@ -28,20 +29,12 @@ class Reader {
   ImportedPacking read() {
     read_bodies();
     for (const YadeInteraction& interaction : scene_.interactions) read_contact(interaction);
-    return builder_.build(scene_.gravity ? in_plane(*scene_.gravity) : Vector2(0, -1));
+    return builder_.build(scene_.gravity ? components(*scene_.gravity) : Vector2(0, -1));
   }
 
  private:
-  Vector2 in_plane(const Eigen::Vector3d& vector) const {
+  Vector2 components(const Eigen::Vector3d& vector) const {
     return {vector[plane_.first], vector[plane_.second]};
-  }
-
-  /// Fails if a vector has a part out of the plane.
-  void require_in_plane(const Eigen::Vector3d& vector, const Place& place, const char* what) const {
-    if (std::abs(vector[plane_.normal]) <= tolerance::kOutOfPlane * vector.norm()) return;
-    place.fail(
-        fmt::format("{} points out of the plane {}; only packings in a plane can be read (--plane xy or xz)",
-                    what, plane_.name()));
   }
 
   /// Whether a sphere is fixed. Fails if it is held in some directions only.
@@ -69,16 +62,16 @@ class Reader {
       }
       Disk disk;
       disk.id = body.id;
-      disk.position = in_plane(body.position);
+      disk.position = components(body.position);
       disk.radius = body.radius;
       disk.mass = body.mass;
       disk.inertia = body.inertia;
-      disk.velocity = in_plane(body.velocity);
+      disk.velocity = components(body.velocity);
       disk.angular_velocity = plane_.turned(body.angular_velocity[plane_.normal]);
       disk.fixed = is_fixed(body);
       if (first == nullptr) first = &body;
       const double height = body.position[plane_.normal] - first->position[plane_.normal];
-      if (std::abs(height) > tolerance::kSameWall * body.radius) {
+      if (!(std::abs(height) <= tolerance::kSameWall * std::abs(body.radius))) {
         body.place.fail(
             fmt::format("body {} lies {:.3g} off the plane {} of body {}; only packings in a plane can "
                         "be read (--plane xy or xz)",
@@ -102,7 +95,7 @@ class Reader {
     }
     Wall wall;
     wall.id = builder_.packing().wall_count();
-    wall.point = in_plane(body.position);
+    wall.point = components(body.position);
     wall.normal = {side < 2 ? sign : 0, side < 2 ? 0 : sign};
     if (body.shape == "Box") wall.point += body.extents[axis] * wall.normal;
     const std::string id = std::to_string(body.id);
@@ -120,9 +113,9 @@ class Reader {
 
   void read_contact(const YadeInteraction& interaction) {
     const Place& place = interaction.place;
-    const Eigen::Vector3d force = interaction.normal_force + interaction.shear_force;
-    require_in_plane(interaction.normal, place, "the normal");
-    require_in_plane(force, place, "the force");
+    const Vector2 direction = in_plane(interaction.normal, plane_, place, "the normal");
+    const Vector2 force =
+        in_plane(interaction.normal_force + interaction.shear_force, plane_, place, "the force");
     const YadeBody& first = body(interaction.first, place);
     const YadeBody& second = body(interaction.second, place);
     // The normal points from the first body to the second, so the second is a, unless it is a wall.
@@ -131,7 +124,7 @@ class Reader {
     const YadeBody& b = swapped ? second : first;
     if (a.shape != "Sphere") place.fail(fmt::format("bodies {} and {} are both walls", first.id, second.id));
     const double sign = swapped ? -1 : 1;
-    const Vector2 normal = sign * in_plane(interaction.normal);
+    const Vector2 normal = sign * direction;
     const DiskId disk = builder_.disk(a.id, place);
     Contact contact = builder_.contact(
         disk,
@@ -140,7 +133,7 @@ class Reader {
     contact.normal = normal;
     if (!std::isnan(interaction.overlap)) contact.gap = -interaction.overlap;
     contact.mu = interaction.friction;
-    PackingBuilder::project(contact, sign * in_plane(force));
+    PackingBuilder::project(contact, sign * force);
     builder_.add_contact(contact, place);
   }
 

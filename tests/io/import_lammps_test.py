@@ -268,6 +268,10 @@ class Lammps(ImportTest):
         message = self.lammps(self.PLAIN, "--gravity", "0,-2", status=3)
         self.assertRegex(message, r"→ gravity: --gravity 0,-1, which most disks want instead of 0,-2, would leave \S+e-1\d mg")
 
+    def test_the_right_gravity_is_not_proposed(self):
+        message = self.lammps("lammps-cases/no-wall-columns", status=3)
+        self.assertIn("gravity: most disks want that which was taken, 0,-1\n", message)
+
     def test_options_of_other_formats(self):
         self.assertIn("--walls is for --format liggghts", self.lammps(self.PLAIN, "--walls", "wl=x:0", status=2))
         message = self.read("yade/soft", "--format", "yade", "--timestep", "3", status=2)

@@ -341,7 +341,8 @@ const std::vector<BadDump> kBadDumps = {
        set_contact(d, 1, "c_pp[2]", "13");
      },
      "contacts.dump:11: the contact of atoms 1 and 13 is given twice, first in line 10, with another force"},
-    {"NanForce", [](Dumps& d) { set_contact(d, 3, "c_pl[3]", "inf"); }, "contacts.dump:13: R and T must be"},
+    {"NanForce", [](Dumps& d) { set_contact(d, 3, "c_pl[3]", "inf"); },
+     "contacts.dump:13: the force of atoms 3 and 15 is not a finite number"},
     {"OutOfPlane", [](Dumps& d) { set_atom(d, 0, "f_wy[4]", "1"); },
      "atoms.dump:10: wall wy pushes atom 1 along z"},
     {"CurvedWall", [](Dumps& d) { set_atom(d, 1, "f_wy[5]", "2.4"); },
