@@ -87,7 +87,8 @@ Reactions read_reactions(const Hdf5File& file) {
        file.read_doubles(kGroup + "/states", {states, size}));
   for (Eigen::Index k = 0; k < count; ++k) {
     const Body body = Body::from_code(reactions.body[k]);
-    const bool exists = body.is_wall() ? body.wall_id().value() < walls : body.disk_id().value() < disks;
+    const bool exists =
+        !body.is_cell() && (body.is_wall() ? body.wall_id().value() < walls : body.disk_id().value() < disks);
     if (!exists) fail("/body", fmt::format("there is no body {}", body.code()));
     const int components = body.is_wall() ? 2 : 3;
     if (reactions.component[k] < 0 || reactions.component[k] >= components)
