@@ -105,7 +105,7 @@ class MercuryReader {
     for (; line_->kind() != "Interactions"; next()) {
     }
     section("Interactions", [this] { read_interaction(); });
-    return builder_.build(gravity_ ? in_plane(*gravity_) : Vector2(0, -1));
+    return builder_.build(gravity_ ? std::optional(in_plane(*gravity_)) : std::nullopt);
   }
 
  private:
