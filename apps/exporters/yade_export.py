@@ -8,7 +8,8 @@ In a script of YADE, or at its prompt, once the packing is at rest:
     yade_export.export('FOLDER')
 
 The folder gets two tables. bodies.txt: spheres with position, radius, mass, moment of inertia, velocities, blocked
-degrees of freedom; walls with axis and sense; boxes with their extents; and the gravity of the NewtonIntegrator.
+degrees of freedom; walls with axis and sense; boxes with their extents; the gravity of the NewtonIntegrator; and the
+three vectors of the cell of a periodic scene.
 interactions.txt: of each real interaction the bodies, the normal (from the first to the second), normal and shear
 force on the second, penetration depth, and the tangent of the friction angle.
 """
@@ -24,8 +25,6 @@ def export(folder, scene=None):
     if scene is None:
         from yade.wrapper import Omega
         scene = Omega()
-    if scene.periodic:
-        raise ValueError('a periodic scene cannot be exported: contacts across a periodic boundary are not read')
     bodies = [_body(body) for body in scene.bodies if body is not None]
     interactions = [_interaction(interaction) for interaction in scene.interactions if interaction.isReal]
     os.makedirs(folder, exist_ok=True)
@@ -33,6 +32,8 @@ def export(folder, scene=None):
         for engine in scene.engines:
             if type(engine).__name__ == 'NewtonIntegrator':
                 file.write('# gravity %s\n' % _numbers(engine.gravity))
+        if scene.periodic:  # the columns of hSize are the vectors
+            file.write('# cell %s\n' % _numbers(scene.cell.hSize[i, k] for k in range(3) for i in range(3)))
         file.write('# %s\n' % BODY_COLUMNS)
         file.writelines(line + '\n' for line in bodies)
     with open(os.path.join(folder, 'interactions.txt'), 'w') as file:

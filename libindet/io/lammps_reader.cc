@@ -54,11 +54,10 @@ ImportedPacking read_lammps(const DumpFiles& files, const ImportSettings& settin
   const DumpPair dumps = read_dumps(files);
   PackingBuilder builder("import lammps", "atom", files.atoms.string(), settings);
   const std::vector<int> rows = read_lammps_atoms(dumps.atoms, names, settings.plane, builder);
-  const Cell cell = dumps.cell(settings.plane);
-  builder.set_cell(cell);
+  builder.set_cell(dumps.cell(settings.plane));
   const double odd_parts = read_pairs(dumps.contacts.table, names, builder);
   read_lammps_walls(dumps.atoms, names, settings.plane, rows, builder);
-  ImportedPacking imported = builder.build({0, cell.is_full() ? 0.0 : -1.0});
+  ImportedPacking imported = builder.build({});
   warn_of_rounding(imported, dumps, names, odd_parts);
   warn_of_atoms_outside(imported, dumps.atoms, settings.plane);
   return imported;

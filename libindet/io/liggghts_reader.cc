@@ -154,7 +154,7 @@ ImportedPacking read_liggghts(const DumpFiles& files, const GivenWalls& walls,
   const std::vector<int> rows = read_lammps_atoms(dumps.atoms, names, settings.plane, builder);
   read_pairs(dumps.contacts.table, settings.plane, builder);
   read_walls(dumps.atoms.table, walls, settings.plane, rows, builder);
-  ImportedPacking imported = builder.build({0, -1});
+  ImportedPacking imported = builder.build({});
   warn_of_rounding(imported, dumps, names, 0);
   warn_of_atoms_outside(imported, dumps.atoms, settings.plane);
   return imported;

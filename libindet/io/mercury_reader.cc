@@ -108,7 +108,7 @@ class MercuryReader {
     for (; line_->kind() != "Interactions"; next()) {
     }
     section("Interactions", [this] { read_interaction(); });
-    return builder_.build(gravity_.value_or(Vector2(0, -1)));
+    return builder_.build(gravity_);
   }
 
  private:

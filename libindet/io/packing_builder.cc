@@ -278,12 +278,13 @@ void PackingBuilder::require_force_unit() const {
                   source_, example));
 }
 
-ImportedPacking PackingBuilder::build(const Vector2& fallback) {
-  packing_.gravity = settings_.gravity.value_or(fallback);
+ImportedPacking PackingBuilder::build(const std::optional<Vector2>& gravity) {
   check_friction_names();
   set_friction();
   sort_contacts();
   drop_idle_directions();
+  const Vector2 fallback(0, packing_.cell.is_full() ? 0 : -1);
+  packing_.gravity = settings_.gravity.value_or(gravity.value_or(fallback));
   require_force_unit();
   find_defects();
   warn_of_what_was_left_out();

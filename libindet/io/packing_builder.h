@@ -66,10 +66,11 @@ class PackingBuilder {
   const Packing& packing() const { return imported_.packing; }
 
   /// The packing, valid, with warnings about what was left out. Directions of the cell that no contact
-  /// crosses are left out too. `fallback`: the gravity where the settings name none. Throws InputError, also
+  /// crosses are left out too. `gravity`: that of the files; where neither they nor the settings name one,
+  /// it is (0, −1), and none in a full cell. Throws InputError, also
   /// if a contact has no friction, the friction names a wall or a pair of types that no contact has, or there
   /// is neither gravity nor a unit of force.
-  ImportedPacking build(const Vector2& fallback);
+  ImportedPacking build(const std::optional<Vector2>& gravity);
 
  private:
   struct FoundDisk {

@@ -191,7 +191,14 @@ YadeInteraction read_interaction(const Archive& archive, const pugi::xml_node& n
 YadeScene read_yade_archive(const std::filesystem::path& file) {
   const Archive archive(file);
   YadeScene scene;
-  scene.periodic = archive.integer(archive.scene(), "isPeriodic") != 0;
+  if (archive.integer(archive.scene(), "isPeriodic") != 0) {
+    const pugi::xml_node size = archive.at(archive.object(archive.at(archive.scene(), "cell/px")), "hSize");
+    scene.cell.emplace();
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k)
+        (*scene.cell)(i, k) = archive.number(size, fmt::format("m{}{}", i, k).c_str());
+    }
+  }
   if (const pugi::xml_node newton = archive.newton()) {
     scene.gravity = archive.vector(newton, "gravity");
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "libindet/base/error.h"
@@ -98,6 +99,7 @@ class Lines {
   Place place() const { return {path_, reader_.line_number()}; }
   const std::vector<std::string>& columns() const { return columns_; }
   const std::optional<Eigen::Vector3d>& gravity() const { return gravity_; }
+  const std::optional<Eigen::Matrix3d>& cell() const { return cell_; }
 
  private:
   void comment(const std::vector<std::string_view>& words) {
@@ -106,13 +108,18 @@ class Lines {
       columns_.assign(words.begin(), words.end());
     } else if (words.front() == "gravity") {
       gravity_.emplace();
-      for (std::size_t i = 0; i < 3; ++i) {
-        double value = 0;
-        if (words.size() != 4 || !parse_number(words[i + 1], &value)) {
-          place().fail("gravity must have three numbers");
-        }
-        (*gravity_)[static_cast<Eigen::Index>(i)] = value;
-      }
+      read_numbers(words, {gravity_->data(), 3}, "gravity must have three numbers");
+    } else if (words.front() == "cell") {
+      cell_.emplace();  // vector by vector, as its columns lie
+      read_numbers(words, {cell_->data(), 9}, "the cell must have nine numbers, three vectors");
+    }
+  }
+
+  void read_numbers(const std::vector<std::string_view>& words, std::span<double> numbers,
+                    const char* complaint) const {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (words.size() != numbers.size() + 1 || !parse_number(words[i + 1], &numbers[i]))
+        place().fail(complaint);
     }
   }
 
@@ -121,6 +128,7 @@ class Lines {
   LineReader reader_;
   std::vector<std::string> columns_;
   std::optional<Eigen::Vector3d> gravity_;
+  std::optional<Eigen::Matrix3d> cell_;
 };
 
 /// "zXY" as bits; "-" for none.
@@ -190,6 +198,7 @@ YadeScene read_yade_folder(const std::filesystem::path& folder) {
       take(Fields(lines.place(), lines.columns(), words));
     }
     if (lines.gravity()) scene.gravity = lines.gravity();
+    if (lines.cell()) scene.cell = lines.cell();
   };
   read("bodies.txt", [&](const Fields& fields) { scene.bodies.push_back(read_body(fields)); });
   read("interactions.txt",

@@ -22,19 +22,33 @@ namespace fs = std::filesystem;
 class Reader {
  public:
   Reader(const YadeScene& scene, const std::string& source, const ImportSettings& settings)
-      : scene_(scene), plane_(settings.plane), builder_("import yade", "body", source, settings) {
-    if (scene.periodic) builder_.set_periodic();
-  }
+      : scene_(scene),
+        source_(source),
+        plane_(settings.plane),
+        builder_("import yade", "body", source, settings) {}
 
   ImportedPacking read() {
     read_bodies();
+    read_cell();
     for (const YadeInteraction& interaction : scene_.interactions) read_contact(interaction);
-    return builder_.build(scene_.gravity ? components(*scene_.gravity) : Vector2(0, -1));
+    return builder_.build(scene_.gravity ? std::optional(components(*scene_.gravity)) : std::nullopt);
   }
 
  private:
   Vector2 components(const Eigen::Vector3d& vector) const {
     return {vector[plane_.first], vector[plane_.second]};
+  }
+
+  /// YADE is periodic in all three directions or in none.
+  void read_cell() {
+    if (!scene_.cell) return;
+    Cell cell;
+    for (const int axis : {plane_.first, plane_.second}) {
+      const Eigen::Vector3d vector = scene_.cell->col(axis);
+      (axis == plane_.first ? cell.a : cell.b) =
+          in_plane(vector, plane_, {source_, 0}, "a vector of the cell");
+    }
+    builder_.set_cell(cell);
   }
 
   /// Whether a sphere is fixed. Fails if it is held in some directions only.
@@ -138,6 +152,7 @@ class Reader {
   }
 
   const YadeScene& scene_;
+  std::string source_;
   Plane plane_;
   PackingBuilder builder_;
   std::unordered_map<std::int32_t, const YadeBody*> bodies_;

@@ -40,7 +40,7 @@ struct YadeInteraction {
 
 struct YadeScene {
   std::optional<Eigen::Vector3d> gravity;
-  bool periodic = false;
+  std::optional<Eigen::Matrix3d> cell;  ///< Its columns are the vectors; none: the scene is not periodic.
   std::vector<YadeBody> bodies;
   std::vector<YadeInteraction> interactions;
 };

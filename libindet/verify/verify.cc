@@ -10,6 +10,7 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/verify/affine_hull.h"
+#include "libindet/verify/cell_motion_check.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/estimate_check.h"
 #include "libindet/verify/reactions_check.h"
@@ -79,7 +80,7 @@ class Verifier {
                            (std::isnan(wall.load_t) && ranges_.wall_motion(w, 1) != 0);
       compare_.require(!is_held, "wall_motion: wall {} moves where it is not free", wall.id);
     }
-    if (!check_cell_motion()) return;
+    if (!check_cell_motion(packing_, ranges_, compare_)) return;
     const Eigen::VectorXd motion =
         problem_.flat_motion(ranges_.motion, ranges_.wall_motion, ranges_.cell_motion);
     const auto bounds = static_cast<Eigen::Index>(force_bounds(packing_).size());
@@ -92,23 +93,6 @@ class Verifier {
     compare_.require(power > 0, "motion: the load does no work ({})", power);
     compare_.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})",
                      resisted);
-  }
-
-  /// The cell moves only in the ways that do work on the imposed stress.
-  bool check_cell_motion() {
-    if (ranges_.cell_motion.rows() == 0) return true;
-    if (!compare_.require(ranges_.cell_motion.rows() == 2 && packing_.stress.is_imposed(),
-                          "cell_motion: {} rows for a cell {} imposed stress", ranges_.cell_motion.rows(),
-                          packing_.stress.is_imposed() ? "with" : "without"))
-      return false;
-    const Stress& stress = packing_.stress;
-    const Eigen::Matrix2d rate = ranges_.cell_motion;
-    const bool isotropic = !std::isnan(stress.pressure);
-    const bool is_held = (!isotropic && std::isnan(stress.xx) && rate(0, 0) != 0) ||
-                         (!isotropic && std::isnan(stress.yy) && rate(1, 1) != 0) ||
-                         (isotropic && rate(0, 0) != rate(1, 1)) ||
-                         (std::isnan(stress.xy) && rate(0, 1) != 0) || rate(1, 0) != 0;
-    return compare_.require(!is_held, "cell_motion: the cell deforms where no stress is imposed");
   }
 
   Eigen::VectorXd state(Eigen::Index k) const {

@@ -83,7 +83,8 @@ TEST(EquilibriumProblem, IsThePapersMatrixInEveryMode) {
       const Eigen::VectorXd generic = Eigen::VectorXd::LinSpaced(problem.unknowns(), 1, 2);
       Eigen::VectorXd balance =
           paper * (forces_of_unknowns(problem) * generic) + oracle::paper_wrench(packing);
-      for (const EquilibriumRow& row : problem.rows) balance[3 * row.body.disk_id().value() + row.component] = 0;
+      for (const EquilibriumRow& row : problem.rows)
+        balance[3 * row.body.disk_id().value() + row.component] = 0;
       EXPECT_EQ(balance.lpNorm<Eigen::Infinity>(), 0);
     }
   }

@@ -161,10 +161,29 @@ class Yade(ImportTest):
         scene.bodies[0].shape = type("Facet", (), {})()
         with self.assertRaisesRegex(ValueError, "body 0 is a Facet"):
             self.exporter().export(str(self.folder / "refused"), scene)
-        scene.periodic = True
-        with self.assertRaisesRegex(ValueError, "periodic"):
-            self.exporter().export(str(self.folder / "refused"), scene)
         self.assertNotIn("refused", self.files())
+
+    def test_a_periodic_cell(self):
+        """Spheres pressed together and sheared by the cell; YADE printed its stress (tension positive, per area of a slice as
+        high as the cell)."""
+        shown = self.read("yade/periodic", "--format", "yade", "--force-unit", "10")
+        self.assertEqual((shown["disks"], shown["walls"], shown["gravity"]), (49, 0, [0, 0]))
+        self.assertLess(max(shown["force_residual"], shown["torque_residual"]), 1e-9)
+        self.assertGreater(shown["cell"]["b"][0], 0)
+        printed = [[3452.255009007130, -368.389173746274], [-368.389173746287, 2708.734558495401]]
+        np.testing.assert_allclose(np.array(shown["stress_of_forces"]) / 0.04, printed, rtol=1e-9)
+        self.assertEqual(self.analyze()["status"], "bounded")
+        with h5py.File(self.folder / "r.h5") as file:
+            for name in "RT":
+                force = file[f"contacts/{name}"][:]
+                self.assertGreater((force - file[f"ranges/{name}_min"][:]).min(), -1e-5)
+                self.assertGreater((file[f"ranges/{name}_max"][:] - force).min(), -1e-5)
+        # What O.save wrote has no penetration depth; it follows from the positions.
+        saved = self.read("yade/periodic/scene.xml.gz", "--format", "yade", "--force-unit", "10", output="q.h5")
+        np.testing.assert_allclose(saved["stress_of_forces"], shown["stress_of_forces"], rtol=1e-12)
+        copy = self.copy("yade/periodic")
+        self.changed(copy / "bodies.txt", ("# cell ", "# cell 1 "))
+        self.assertIn("the cell must have nine numbers", self.read(copy, "--format", "yade", "--force-unit", "10", status=3, output="s.h5"))
 
     def test_blocked_spheres_are_fixed(self):
         scene = self.scene()

@@ -132,9 +132,10 @@ class Lammps(ImportTest):
     def test_a_periodic_direction_that_no_contact_crosses(self):
         copy = self.copy(self.PLAIN)
         for name in ("atoms.dump", "contacts.dump"):
-            self.changed(copy / name, ("ITEM: BOX BOUNDS ff ff pp", "ITEM: BOX BOUNDS pp ff pp"))
+            self.changed(copy / name, ("ITEM: BOX BOUNDS ff ff pp", "ITEM: BOX BOUNDS pp pp pp"))
         shown = self.lammps(copy)
         self.assertIsNone(shown["cell"])
+        self.assertEqual(shown["gravity"], [0, -1])
         self.assertTrue(any("no contact crosses that boundary" in text for text in shown["warnings"]))
 
     def expect_simulated_forces_in_ranges(self):

@@ -6,49 +6,15 @@
 #include "libindet/equilibrium/contact_state.h"
 #include "libindet/range/analyze.h"
 #include "tests/support/compare.h"
-#include "tests/support/scene_builder.h"
+#include "tests/support/periodic_lattice.h"
 
 namespace indet {
 namespace {
 
-/// A triangular lattice of disks of diameter 1, a little disordered: radii stay, centres move by up to
-/// `disorder`, so that normals and branches are generic. Contacts along 0°, 60° and 120° with their images.
-Packing lattice(int columns, int rows, double mu, double disorder) {
-  Packing packing;
-  packing.named_force_unit = 1;
-  const Vector2 up(0.5, std::sqrt(3) / 2);
-  packing.cell.a = Vector2(columns, 0);
-  packing.cell.b = rows * up;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      const Vector2 shift(std::sin(3 * i + 7 * j), std::cos(5 * i - 2 * j));
-      zoo::add_disk(packing, Vector2(i, 0) + j * up + disorder * shift, 0.5);
-    }
-  }
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      for (const auto& [di, dj] : {std::pair(1, 0), {0, 1}, {-1, 1}}) {
-        const int x = i + di + columns;
-        const int y = j + dj;
-        Contact contact;
-        contact.a = DiskId(j * columns + i);
-        contact.b = Body::disk(DiskId(y % rows * columns + x % columns));
-        contact.image = {x / columns - 1, y / rows};
-        contact.normal = geometric_normal(packing, contact.a, contact.b, contact.image);
-        contact.gap = geometric_gap(packing, contact.a, contact.b, contact.image);
-        contact.mu = mu;
-        packing.contacts.push_back(contact);
-      }
-    }
-  }
-  packing.stress.xx = 1;
-  packing.stress.yy = 1.1;
-  packing.stress.xy = 0.05;
-  return packing;
-}
+using zoo::periodic_lattice;
 
 TEST(Cell, AllFormulationsAgree) {
-  const Packing packing = lattice(3, 2, 0.3, 0.02);
+  const Packing packing = periodic_lattice(3, 2, 0.3, 0.02);
   AnalyzeOptions options;
   options.formulation = Formulation::kEdge;
   const ForceRanges right = analyze(packing, options);
@@ -69,7 +35,7 @@ TEST(Cell, AllFormulationsAgree) {
 
 /// Each disk may be represented by any of its images.
 TEST(Cell, DoesNotSeeWhereDisksAreCut) {
-  const Packing packing = lattice(3, 2, 0.3, 0.02);
+  const Packing packing = periodic_lattice(3, 2, 0.3, 0.02);
   Packing moved = packing;
   const Image jumps[] = {{2, 0}, {0, -1}, {0, 0}, {-1, 3}, {5, 1}, {0, 0}};
   for (int i = 0; i < moved.disk_count(); ++i) {
@@ -86,7 +52,7 @@ TEST(Cell, DoesNotSeeWhereDisksAreCut) {
 
 /// Turning the whole scene turns the stress tensor with it.
 TEST(Cell, DoesNotSeeHowTheSceneIsTurned) {
-  const Packing packing = lattice(3, 2, 0.3, 0.02);
+  const Packing packing = periodic_lattice(3, 2, 0.3, 0.02);
   Packing turned = packing;
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(0.7).toRotationMatrix();
   for (Disk& disk : turned.disks) disk.position = turn * disk.position;
@@ -109,7 +75,7 @@ TEST(Cell, DoesNotSeeHowTheSceneIsTurned) {
 }
 
 TEST(Cell, StatesMakeTheStressThatIsImposed) {
-  const Packing packing = lattice(3, 3, 0.4, 0.01);
+  const Packing packing = periodic_lattice(3, 3, 0.4, 0.01);
   const ForceRanges ranges = analyze(packing);
   ASSERT_GT(ranges.states.rows(), 0);
   for (Eigen::Index k = 0; k < ranges.states.rows(); ++k) {
@@ -125,7 +91,7 @@ TEST(Cell, StatesMakeTheStressThatIsImposed) {
 /// The sensitivity is that of ranges whose normals were turned: no value moves by more than it says, and
 /// some by nearly as much.
 TEST(Cell, SensitivityBoundsWhatTurnedNormalsDo) {
-  const Packing packing = lattice(2, 2, 0.3, 0.02);
+  const Packing packing = periodic_lattice(2, 2, 0.3, 0.02);
   const ForceRanges before = analyze(packing);
   constexpr double kAngle = 1e-7;
   Packing turned = packing;
@@ -145,7 +111,7 @@ TEST(Cell, SensitivityBoundsWhatTurnedNormalsDo) {
 
 /// One disk, frictionless, at a pressure p: Σ R / 2 = A p, A = √3/2, so that R_1 + R_2 + R_3 = √3 p.
 TEST(Cell, OneDiskAtAPressureHasASimplex) {
-  Packing packing = lattice(1, 1, 0, 0);
+  Packing packing = periodic_lattice(1, 1, 0, 0);
   packing.stress = {};
   packing.stress.pressure = 1;
   const ForceRanges ranges = analyze(packing);
@@ -158,7 +124,7 @@ TEST(Cell, OneDiskAtAPressureHasASimplex) {
 }
 
 TEST(Cell, WhatCannotStandMovesTheCell) {
-  Packing packing = lattice(2, 2, 0.3, 0);
+  Packing packing = periodic_lattice(2, 2, 0.3, 0);
   packing.stress = {};
   packing.stress.pressure = -1;
   const ForceRanges ranges = analyze(packing);

@@ -7,6 +7,7 @@
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/exact_check.h"
 #include "tests/support/body_variants.h"
+#include "tests/support/periodic_lattice.h"
 #include "tests/support/zoo.h"
 #include "tests/verify/first_message.h"
 
@@ -111,6 +112,45 @@ TEST(VerifyRanges, ChecksTheMotionOfLoadedWalls) {
   wrong = good;
   wrong.wall_motion *= -1;
   EXPECT_FALSE(verify_ranges(packing, wrong).passed());
+}
+
+TEST(VerifyRanges, AcceptsCells) {
+  for (const double mu : {0.0, 0.3}) {
+    Packing packing = zoo::periodic_lattice(2, 2, mu, 0.02);
+    const ForceRanges good = analyze(packing);
+    EXPECT_TRUE(verify_ranges(packing, good).passed()) << first_message(verify_ranges(packing, good));
+    EXPECT_TRUE(check_exactly(packing, good).passed());
+    Packing other = packing;
+    other.stress.xy *= 1.001;
+    EXPECT_FALSE(verify_ranges(other, good).passed());
+    EXPECT_FALSE(check_exactly(other, good).passed());
+    other = packing;
+    *other.cell.b *= 1.001;
+    EXPECT_FALSE(verify_ranges(other, good).passed());
+  }
+}
+
+TEST(VerifyRanges, ChecksTheMotionOfCells) {
+  for (const bool isotropic : {true, false}) {
+    Packing packing = zoo::periodic_lattice(2, 2, 0.3, 0.02);
+    packing.stress = {};
+    (isotropic ? packing.stress.pressure : packing.stress.yy) = -1;
+    const ForceRanges good = analyze(packing);
+    ASSERT_EQ(good.status, PolytopeStatus::kEmpty);
+    EXPECT_TRUE(verify_ranges(packing, good).passed()) << first_message(verify_ranges(packing, good));
+    EXPECT_TRUE(check_exactly(packing, good).proves_emptiness);
+    const auto refuses = [&](auto change) {
+      ForceRanges wrong = good;
+      change(wrong.cell_motion);
+      return !verify_ranges(packing, wrong).passed();
+    };
+    EXPECT_FALSE(refuses([](auto&) {}));
+    EXPECT_TRUE(refuses([](auto& motion) { motion *= -1; })) << "the load does no work";
+    EXPECT_TRUE(refuses([](auto& motion) { motion(0, 0) += 0.1; })) << "not free, or not isotropic";
+    EXPECT_TRUE(refuses([](auto& motion) { motion(0, 1) += 0.1; }));
+    EXPECT_TRUE(refuses([](auto& motion) { motion(1, 0) += 0.1; }));
+    EXPECT_TRUE(refuses([](auto& motion) { motion.conservativeResize(1, 2); }));
+  }
 }
 
 TEST(VerifyRanges, ChecksReactions) {
