@@ -49,7 +49,7 @@ class DataReader {
     for (int row = 0; row < contacts_.rows(); ++row) read_contact(row);
     close_pairs();
     check_given_walls();
-    return builder_.build({0, -1});
+    return builder_.build(std::nullopt);
   }
 
  private:
