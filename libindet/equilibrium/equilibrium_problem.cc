@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace indet {
 namespace {
@@ -142,56 +141,6 @@ void add_column(const RowNumbering& number, const Contact& contact, const Contac
   const int along_tangent = number(contact.b.wall_id(), 1);
   if (along_normal >= 0 && R != 0) out.emplace_back(along_normal, column, -R);
   if (along_tangent >= 0 && T != 0) out.emplace_back(along_tangent, column, -T);
-}
-
-/// The unit of the problem: the internal one, unless some bounds of a force are so narrow that tolerances
-/// would not tell them apart. Then it is a power of two next to half of the narrowest interval.
-ForceUnits problem_units(const Packing& packing) {
-  ForceUnits units = packing.force_units();
-  double narrowest = std::numeric_limits<double>::infinity();
-  for (const ForceBound& bound : force_bounds(packing)) {
-    if (bound.is_two_sided()) narrowest = std::min(narrowest, std::abs(bound.value - bound.other) / 2);
-  }
-  constexpr double kNarrow = 1e-3;
-  if (!(narrowest < kNarrow * units.internal_in_scene())) return units;
-  return {packing.force_unit(), std::exp2(std::round(std::log2(narrowest)))};
-}
-
-/// The rows of bounds.
-std::vector<BoundRow> rows_of(const std::vector<ForceBound>& bounds, double unit) {
-  using Side = ForceBound::Side;
-  std::vector<BoundRow> rows;
-  for (const ForceBound& bound : bounds) {
-    BoundRow row{bound, bound.value / unit};
-    if (bound.is_two_sided()) {
-      row.follows_lower =
-          bound.side == Side::kUpper && !rows.empty() && rows.back().bound.component() == bound.component();
-      if (row.follows_lower) row.value = (bound.value - bound.other) / unit;
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-/// Adds what a force (R, T) of one contact enters of the rows of bounds, of which `first_row` is the first.
-void add_to_bounds(const std::vector<BoundRow>& bounds, int first_row, ContactId contact, double R, double T,
-                   int column, Triplets& out) {
-  const auto begin =
-      std::lower_bound(bounds.begin(), bounds.end(), contact.value(),
-                       [](const BoundRow& row, int c) { return row.bound.contact.value() < c; });
-  for (auto row = begin; row != bounds.end() && row->bound.contact == contact; ++row) {
-    const double force = row->bound.tangential ? T : R;
-    if (!row->follows_lower && force != 0)
-      out.emplace_back(first_row + static_cast<int>(row - bounds.begin()), column, force);
-  }
-}
-
-/// Adds the column of the slack of bound k.
-void add_slack(const std::vector<BoundRow>& bounds, int first_row, int k, int column, Triplets& out) {
-  const auto i = static_cast<std::size_t>(k);
-  const bool is_lower = bounds[i].bound.side == ForceBound::Side::kLower;
-  out.emplace_back(first_row + k, column, is_lower ? -1 : 1);
-  if (i + 1 < bounds.size() && bounds[i + 1].follows_lower) out.emplace_back(first_row + k + 1, column, 1);
 }
 
 /// What acts in an equation, in a unit of force.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "libindet/packing/force_bounds.h"
+#include "libindet/equilibrium/bound_rows.h"
 #include "libindet/packing/packing.h"
 
 namespace indet {
@@ -33,18 +33,6 @@ struct EquilibriumRow {
                     ///< times the radius for a torque, times the cell's length for a stress
   double load = 0;  ///< Σ |parts of the load|, in the scene's units: it bounds the rounding of b
   int bound = -1;   ///< ≥ 0: no equation of a body but this one of the problem's bounds
-};
-
-/// A bound of a force as rows of the problem: F − s = lo, F + s = hi, or where a force has both
-/// F − s = lo, s + s′ = hi − lo, with slacks s ≥ 0. A
-/// slack is a further unknown, and the strength of an edge of its own. Numbers are in the problem's unit.
-struct BoundRow {
-  ForceBound bound;
-  double value = 0;            ///< of the row: lo, hi or hi − lo
-  bool closed = false;         ///< the slack is 0 in every state, and no unknown
-  bool follows_lower = false;  ///< s + s′ = hi − lo, after the row of the same force's lo
-
-  bool has_slack() const { return !closed && bound.side != ForceBound::Side::kEqual; }
 };
 
 /// An unknown: the strength x ≥ 0 of one edge of one contact's cone, or the slack of a bound.
