@@ -231,6 +231,10 @@ void print_quality(const ForceRanges& ranges) {
              ranges.imprecise, ranges.failed);
   fmt::print("largest residuals: {:.1e} of balance and friction, {:.1e} of optimality\n",
              ranges.worst_primal_residual, ranges.worst_dual_residual);
+  if (ranges.reactions.uncertain() > 0) {
+    fmt::print("of {} of walls and fixed disks, {} imprecise or failed\n",
+               counted(2 * ranges.reactions.count(), "extremum", "extrema"), ranges.reactions.uncertain());
+  }
   const Firmness firm = firmness(ranges);
   const std::string open = firm.half_open > 0 ? fmt::format("; {} of {} values lack a finite bound on a side",
                                                             firm.half_open, firm.values)
@@ -332,7 +336,7 @@ int run(const AnalyzeCommand& options, const Context& context) {
     print_summary(packing, ranges, output.string());
   }
   if (ranges.status == PolytopeStatus::kEmpty) return ranges.doubtful ? kUncertain : kNoAdmissibleState;
-  return ranges.imprecise + ranges.failed > 0 ? kUncertain : kDone;
+  return ranges.imprecise + ranges.failed + ranges.reactions.uncertain() > 0 ? kUncertain : kDone;
 }
 
 }  // namespace

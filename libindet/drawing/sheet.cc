@@ -179,16 +179,18 @@ void Sheet::draw_wall_lines(const std::vector<Vector2>& domain) {
 }
 
 /// At the middle of each loaded wall's part of the domain's edge: an arrow for what pushes along its normal,
-/// a thinner one along its tangent, with the loads in units of force.
+/// ending on the wall, a thinner one along its tangent (t), and the loads behind the wall.
 void Sheet::draw_loads(const std::vector<Vector2>& domain) {
   constexpr double kArrow = 16;
+  constexpr double kHead = 5;
   constexpr double kText = 6;
   const double close = tolerance::kSamePoint * (high_ - low_).norm();
   const double unit = packing_.force_unit();
   const auto arrow = [&](const Vector2& tip, const Vector2& towards, double thickness) {
     const Vector2 side(-towards.y(), towards.x());
-    canvas_->line(tip - kArrow * towards, tip, thickness, palette::kLoad, false, false);
-    canvas_->polygon({tip, tip - 5 * towards + 2.5 * side, tip - 5 * towards - 2.5 * side}, palette::kLoad);
+    const Vector2 neck = tip - kHead * towards;
+    canvas_->line(tip - kArrow * towards, neck, thickness, palette::kLoad, false, false);
+    canvas_->polygon({tip, neck + kHead / 2 * side, neck - kHead / 2 * side}, palette::kLoad);
   };
   for (const Wall& wall : packing_.walls) {
     if (!wall.is_loaded()) continue;
@@ -204,18 +206,23 @@ void Sheet::draw_loads(const std::vector<Vector2>& domain) {
       middle = (from + to) / 2;
     }
     const Vector2 at = place(middle);
-    std::string text;
+    const Vector2 outwards = direction(Vector2(-wall.normal));
+    const Vector2 behind = at + kArrow / 2 * outwards;
+    const bool is_upright = std::abs(outwards.x()) > std::abs(outwards.y());
     if (wall.is_free_along_normal()) {
-      const Vector2 towards = direction(wall.load_n < 0 ? Vector2(-wall.normal) : wall.normal);
-      if (wall.load_n != 0) arrow(at + 2 * towards, towards, 1.5);
-      text = fmt::format("{:.3g}", wall.load_n / unit);
+      const Vector2 towards = wall.load_n < 0 ? outwards : Vector2(-outwards);
+      if (wall.load_n != 0) arrow(wall.load_n < 0 ? Vector2(at + kArrow * outwards) : at, towards, 1.5);
+      const Vector2 aside = is_upright ? Vector2(0, -kArrow / 2 - 2) : Vector2(kHead, kText / 3);
+      canvas_->text(behind + aside, fmt::format("{:.3g} mg", wall.load_n / unit), kText,
+                    is_upright ? 0.5 : 0);
     }
     if (wall.is_free_along_tangent()) {
       const Vector2 towards = direction(wall.load_t < 0 ? Vector2(-wall.tangent()) : wall.tangent());
-      if (wall.load_t != 0) arrow(at + 0.5 * kArrow * towards, towards, 0.75);
-      text += fmt::format("{}t: {:.3g}", text.empty() ? "" : ", ", wall.load_t / unit);
+      if (wall.load_t != 0) arrow(at + kArrow / 2 * towards, towards, 0.75);
+      const Vector2 aside = is_upright ? Vector2(0, kArrow / 2 + kText) : Vector2(-kHead, kText / 3);
+      canvas_->text(behind + aside, fmt::format("t {:.3g} mg", wall.load_t / unit), kText,
+                    is_upright ? 0.5 : 1);
     }
-    canvas_->text(at + Vector2(3, -3), text, kText);
   }
 }
 

@@ -132,17 +132,34 @@ mpq_class ContactBasis::force(int component) const {
   return force / problem_.load_scale();
 }
 
+mpq_class ContactBasis::sum(const Goal& goal) const {
+  mpq_class sum = 0;
+  for (const auto& [component, coefficient] : goal.terms) sum += mpq_class(coefficient) * force(component);
+  return sum;
+}
+
 mpq_class ContactBasis::edge_cost(int edge, const Goal& goal) const {
-  if (goal.component / 2 != edge / 2) return 0;
-  if (goal.component % 2 == 0) return goal.sign;
-  const mpq_class mu = problem_.mu(edge / 2);
-  return edge % 2 == 0 ? goal.sign * mu : -goal.sign * mu;
+  mpq_class cost = 0;
+  for (const auto& [component, coefficient] : goal.terms) {
+    if (component / 2 != edge / 2) continue;
+    const mpq_class part = goal.sign * mpq_class(coefficient);
+    if (component % 2 == 0) {
+      cost += part;
+    } else {
+      cost +=
+          edge % 2 == 0 ? mpq_class(part * problem_.mu(edge / 2)) : mpq_class(-part * problem_.mu(edge / 2));
+    }
+  }
+  return cost;
 }
 
 mpq_class ContactBasis::cost(const Variable& variable, const Goal& goal) const {
   if (variable.kind == 2) return edge_cost(variable.edge, goal);
-  if (goal.component / 2 != variable.contact) return 0;
-  return goal.component % 2 == variable.kind ? goal.sign : 0;
+  mpq_class cost = 0;
+  for (const auto& [component, coefficient] : goal.terms) {
+    if (component == 2 * variable.contact + variable.kind) cost += goal.sign * mpq_class(coefficient);
+  }
+  return cost;
 }
 
 ContactBasis::Multipliers ContactBasis::multipliers(const Goal& goal) const {

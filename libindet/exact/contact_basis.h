@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "libindet/exact/contact_problem.h"
@@ -9,10 +10,14 @@
 
 namespace indet::exact {
 
-/// What is to be maximised: sign · R_α (component 2α) or sign · T_α (component 2α + 1).
+/// What is to be maximised: sign · Σ coefficient · force, of R_α (component 2α) and T_α (component 2α + 1).
+/// Coefficients are taken as they are.
 struct Goal {
-  int component = 0;
+  std::vector<std::pair<int, double>> terms;  ///< (component, coefficient)
   int sign = 1;
+
+  Goal(int component, int direction) : terms{{component, 1.0}}, sign(direction) {}
+  Goal(std::vector<std::pair<int, double>> sum, int direction) : terms(std::move(sum)), sign(direction) {}
 };
 
 /// A basis of the exact problem: rank() independent edges; all others have strength 0. The forces x_B = B⁻¹
@@ -34,6 +39,8 @@ class ContactBasis {
   int first_negative() const;
   /// R_α (component 2α) or T_α (2α + 1), in the scene's own units.
   mpq_class force(int component) const;
+  /// The sum of a goal, without its sign.
+  mpq_class sum(const Goal& goal) const;
 
   /// y, one an independent row, up to a positive factor that is returned beside it.
   struct Multipliers {

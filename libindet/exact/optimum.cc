@@ -20,7 +20,7 @@ Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> 
     const int improving = goal ? basis->first_improving(*goal, basis->multipliers(*goal)) : -1;
     if (infeasible < 0 && improving < 0) {
       result.verdict = Verdict::kOptimal;
-      if (goal) result.value = basis->force(goal->component);
+      if (goal) result.value = basis->sum(*goal);
       return result;
     }
     const bool leave = improving < 0 || (infeasible >= 0 && infeasible < improving);
@@ -62,6 +62,15 @@ Enclosure enclose(const mpq_class& value) {
   if (mpq_class(truncated) == value) return {truncated, truncated};
   if (value > 0) return {truncated, std::nextafter(truncated, kInfinity)};
   return {std::nextafter(truncated, -kInfinity), truncated};
+}
+
+double nearest(const mpq_class& value) {
+  const Enclosure enclosure = enclose(value);
+  if (std::isinf(enclosure.lower) || std::isinf(enclosure.upper))
+    return value > 0 ? enclosure.lower : enclosure.upper;
+  const bool low =
+      mpq_class(value - mpq_class(enclosure.lower)) <= mpq_class(mpq_class(enclosure.upper) - value);
+  return low ? enclosure.lower : enclosure.upper;
 }
 
 }  // namespace indet::exact

@@ -20,12 +20,12 @@ enum class Verdict : std::uint8_t {
 
 struct Optimum {
   Verdict verdict = Verdict::kUndecided;
-  mpq_class value;  ///< of the component itself (not times the sign), if optimal
+  mpq_class value;  ///< of the goal's sum itself (not times the sign), if optimal
   int pivots = 0;   ///< 0: the start was it
   std::shared_ptr<const ContactBasis> basis;
 };
 
-/// Maximises goal.sign · component from a basis, by the criss-cross method with least indices (Terlaky,
+/// Maximises a goal from a basis, by the criss-cross method with least indices (Terlaky,
 /// Optimization 16, 683 (1985)): it needs no feasible start, takes no step by rounding, and is finite. A
 /// basis that is optimal already costs no pivot. kUnbounded is reported as "dual infeasible": the ray exists;
 /// that the problem has a solution is for the caller to know, or to ask with find_solution.
@@ -42,5 +42,7 @@ struct Enclosure {
   double upper = 0;
 };
 Enclosure enclose(const mpq_class& value);
+/// The nearer of the two; the finite one where the number is too large for a double.
+double nearest(const mpq_class& value);
 
 }  // namespace indet::exact

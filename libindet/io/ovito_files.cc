@@ -44,6 +44,13 @@ std::string comment(const Packing& packing) {
   return text + std::string(kWriter);
 }
 
+/// Of the type of a particle: X a disk, F a fixed one, W the foot of a contact with a wall, I an image.
+char species_of(const Packing& packing, const VtkGrid& grid, std::size_t point) {
+  if (grid.body[point] < 0) return 'W';
+  if (point >= packing.disks.size()) return 'I';
+  return grid.fixed[point] != 0 ? 'F' : 'X';
+}
+
 /// The ids of the points of a grid: disks, then feet and images.
 std::vector<std::int64_t> particle_ids(const Packing& packing, const VtkGrid& grid) {
   const FileIds ids(packing);
@@ -78,8 +85,8 @@ void write_particles(const std::filesystem::path& path, const Packing& packing) 
   std::string text = fmt::format("{}\n{}", grid.point_count(), comment(packing));
   for (std::size_t i = 0; i < grid.point_count(); ++i) {
     const bool is_disk = i < packing.disks.size();
-    const char species = is_disk ? 'X' : grid.body[i] < 0 ? 'W' : 'I';
-    text += fmt::format("{} {} {} 0 {} {} {}\n", species, grid.points[3 * i], grid.points[3 * i + 1], ids[i],
+    text += fmt::format("{} {} {} 0 {} {} {}\n", species_of(packing, grid, i), grid.points[3 * i],
+                        grid.points[3 * i + 1], ids[i],
                         is_disk ? grid.radius[i] : kFootRadius * packing.max_radius(),
                         is_disk ? packing[DiskId(grid.body[i])].mass : 0);
   }
@@ -98,6 +105,7 @@ void write_bonds(const std::filesystem::path& path, const Packing& packing,
       ranges != nullptr ? range_columns(*ranges, mg) : std::vector<RangeColumn>{};
   std::string text = fmt::format("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n{}\n{}{}",
                                  packing.contact_count(), box_text(grid), kBondColumns);
+  if (packing.has_levers()) text += " lever_a lever_b";
   for (const RangeColumn& column : columns) {
     text += " " + column.name;
     if (column.end) text += fmt::format(" {}_outcome", to_string(*column.end));
@@ -107,6 +115,11 @@ void write_bonds(const std::filesystem::path& path, const Packing& packing,
     const Contact& contact = packing[ContactId(i)];
     text += fmt::format("{} {} {} {} {} {} {}", i + 1, particle(2 * i), particle(2 * i + 1), contact.mu,
                         contact.gap, forces[2 * i] / mg, forces[2 * i + 1] / mg);
+    if (packing.has_levers()) {
+      const double of_b =
+          contact.b.is_wall() ? std::numeric_limits<double>::quiet_NaN() : packing.lever_b(contact);
+      text += fmt::format(" {} {}", packing.lever_a(contact), of_b);
+    }
     for (const RangeColumn& column : columns) {
       text += fmt::format(" {}", column.values[i]);
       if (column.end) text += fmt::format(" {}", static_cast<int>(ranges->outcome(i, *column.end)));

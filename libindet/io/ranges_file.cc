@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "libindet/base/error.h"
-#include "libindet/io/reactions_file.h"
 #include "libindet/io/vtkhdf.h"
 #include "libindet/range/result_fields.h"
 
@@ -107,6 +106,7 @@ class FieldReader {
     sizes_[Extent::kDirections] = 2;
     sizes_[Extent::kComponents] = 3;
     sizes_[Extent::kColumns] = 4;
+    sizes_[Extent::kEnds] = 2;
     sizes_[Extent::kDisks] = file.shape("/particles/disks/id", 1)[0];
     sizes_[Extent::kWalls] = file.shape("/walls/id", 1)[0];
     sizes_[Extent::kContacts] = file.shape("/contacts/body_a", 1)[0];
@@ -237,16 +237,42 @@ void check_pointers(const Hdf5File& file, const ForceRanges& ranges) {
   for (const std::int32_t row : ranges.vertex.reshaped())
     check("/ranges/vertex", "state", row, ranges.states.rows());
   for (const std::int32_t row : ranges.ray.reshaped()) check("/ranges/ray", "ray", row, ranges.rays.rows());
+  const Reactions& r = ranges.reactions;
+  for (const std::int32_t row : r.vertex.reshaped())
+    check("/reactions/vertex", "state", row, r.states.rows());
+  for (const std::int32_t row : r.ray.reshaped()) check("/reactions/ray", "ray", row, r.rays.rows());
+}
+
+/// Reactions are those of bodies that there are, and no table of them is missing.
+void check_reactions(const Hdf5File& file, const Reactions& reactions) {
+  const Eigen::Index count = reactions.count();
+  const auto walls = static_cast<std::int64_t>(file.shape("/walls/id", 1)[0]);
+  const auto disks = static_cast<std::int64_t>(file.shape("/particles/disks/id", 1)[0]);
+  for (const Eigen::Index rows :
+       {reactions.component.size(), reactions.value.rows(), reactions.lower.rows(), reactions.upper.rows(),
+        reactions.outcome.rows(), reactions.vertex.rows(), reactions.ray.rows()}) {
+    if (rows != count) fail(file, "/reactions", "some of its tables are missing");
+  }
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Body body = Body::from_code(reactions.body[k]);
+    const bool exists =
+        !body.is_cell() && (body.is_wall() ? body.wall_id().value() < walls : body.disk_id().value() < disks);
+    if (!exists) fail(file, "/reactions/body", fmt::format("there is no body {}", body.code()));
+    const std::int32_t component = reactions.component[k];
+    if (component < 0 || component >= (body.is_wall() ? 2 : 3))
+      fail(file, "/reactions/component",
+           fmt::format("there is no component {} of body {}", component, body.code()));
+  }
 }
 
 }  // namespace
 
 void write_ranges_part(Hdf5File& file, const ForceRanges& ranges) {
   for (const char* group : {"/equilibrium", "/ranges", "/extremal"}) file.make_group(group);
+  if (ranges.reactions.count() > 0) file.make_group("/reactions");
   visit_fields(ranges, FieldWriter(file, ranges, false));
   if (ranges.choice == ContactChoice::Kind::kSample) file.set_attribute("/ranges", "confidence", kConfidence);
   file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
-  write_reactions_part(file, ranges.reactions);
 }
 
 void write_work_part(Hdf5File& file, const ForceRanges& ranges) {
@@ -283,7 +309,7 @@ ForceRanges read_ranges(const Hdf5File& file) {
   if (ranges.choice == ContactChoice::Kind::kAll) ranges.requested = static_cast<int>(ranges.value.rows());
   check_request(file, ranges);
   check_pointers(file, ranges);
-  ranges.reactions = read_reactions(file);
+  check_reactions(file, ranges.reactions);
   ranges.seconds = file.number_attributes("/provenance/timings");
   return ranges;
 }

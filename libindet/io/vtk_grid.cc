@@ -8,6 +8,7 @@ VtkGrid vtk_grid(const Packing& packing) {
     grid.points.insert(grid.points.end(), {position.x(), position.y(), 0});
     grid.radius.push_back(radius);
     grid.body.push_back(body);
+    grid.fixed.push_back(body >= 0 && packing[DiskId(body)].fixed ? 1 : 0);
     return static_cast<std::int64_t>(grid.body.size()) - 1;
   };
   for (int i = 0; i < packing.disk_count(); ++i) {

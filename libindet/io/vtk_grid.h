@@ -22,7 +22,8 @@ struct VtkGrid {
   std::vector<std::int64_t> offsets;       ///< [M + 1]: 0, 2, …, 2M
   std::vector<std::uint8_t> types;         ///< [M]: all VTK_LINE
   std::vector<double> radius;              ///< [P]; 0 of a foot or an image
-  std::vector<std::int32_t> body;  ///< [P]: row of the disk (also of an image), or −(w + 1) of the wall
+  std::vector<std::int32_t> body;   ///< [P]: row of the disk (also of an image), or −(w + 1) of the wall
+  std::vector<std::uint8_t> fixed;  ///< [P]: 1 of a fixed disk
 
   static constexpr std::uint8_t kLine = 3;  ///< VTK_LINE
   std::size_t point_count() const { return body.size(); }

@@ -44,6 +44,9 @@ void write_grid(Hdf5File& file, const Packing& packing) {
              {"length", "radius of the disk, 0 of a foot"});
   file.write(group + "/PointData/body", grid.body, {grid.point_count()},
              {"1", "row of the disk, or -(w+1) for the wall of row w"});
+  if (packing.fixed_disk_count() > 0) {
+    file.write(group + "/PointData/fixed", grid.fixed, {grid.point_count()}, {"1", "1 of a fixed disk"});
+  }
   file.make_group(group + "/CellData");
 }
 
@@ -86,6 +89,9 @@ void write_vtkhdf_part(Hdf5File& file, const Packing& packing, const ForceRanges
   for (const char* name : {"body_a", "body_b", "gap", "mu", "R", "T"}) {
     file.link(std::string("/contacts/") + name, cell_data(name));
   }
+  for (const char* name : {"lever_a", "lever_b"}) {
+    if (packing.has_levers()) file.link(std::string("/contacts/") + name, cell_data(name));
+  }
   visit_contact_fields(ranges, [&]<class Table>(const Field& field, const Table& table) {
     if constexpr (kIsOutcome<Table>) {
       write_table(file, field, table);
@@ -103,7 +109,7 @@ void write_vtkhdf(const std::filesystem::path& path, const Packing& packing,
   write_grid(file, packing);
   const auto count = static_cast<std::size_t>(packing.contact_count());
   std::vector<std::int32_t> a, b;
-  std::vector<double> gap, mu, R, T;
+  std::vector<double> gap, mu, R, T, lever_a, lever_b;
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];
     a.push_back(contact.a.value());
@@ -112,6 +118,8 @@ void write_vtkhdf(const std::filesystem::path& path, const Packing& packing,
     mu.push_back(contact.mu);
     R.push_back(forces[2 * i]);
     T.push_back(forces[2 * i + 1]);
+    lever_a.push_back(contact.lever_a);
+    lever_b.push_back(contact.lever_b);
   }
   file.write(cell_data("body_a"), a, {count}, {"1", "row of disk a"});
   file.write(cell_data("body_b"), b, {count}, {"1", "row of disk b, or -(w+1) for the wall of row w"});
@@ -120,6 +128,11 @@ void write_vtkhdf(const std::filesystem::path& path, const Packing& packing,
   file.write(cell_data("mu"), mu, {count}, {"1", "Coulomb friction coefficient"});
   file.write(cell_data("R"), R, {count}, {"force", "normal force of the chosen state, NaN if unknown"});
   file.write(cell_data("T"), T, {count}, {"force", "tangential force of the chosen state, NaN if unknown"});
+  if (packing.has_levers()) {
+    file.write(cell_data("lever_a"), lever_a, {count}, {"length", "lever arm on a, NaN: its radius"});
+    file.write(cell_data("lever_b"), lever_b, {count},
+               {"length", "lever arm on b, NaN: its radius, or a wall"});
+  }
   if (ranges != nullptr) {
     visit_contact_fields(*ranges,
                          [&](const Field& field, const auto& table) { write_table(file, field, table); });

@@ -45,13 +45,6 @@ bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, con
   return true;
 }
 
-Rows<double> rows_of(const std::vector<Eigen::VectorXd>& vectors, Eigen::Index columns) {
-  Rows<double> rows(static_cast<Eigen::Index>(vectors.size()), columns);
-  for (std::size_t k = 0; k < vectors.size(); ++k)
-    rows.row(static_cast<Eigen::Index>(k)) = vectors[k].transpose();
-  return rows;
-}
-
 /// How the search of a polytope is to be done.
 SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions& options) {
   int largest = 0;
@@ -101,13 +94,12 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   stopwatch.mark("ranges");
   seconds["states"] = extrema.state_seconds;
   seconds["ranges"] -= extrema.state_seconds;
-  const FoundReactions reactions = find_reactions(packing, polytope, search.formulation, options.lp);
+  const FoundReactions reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
   Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima);
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
-      enclosures.proven &&
-      proves_rays(packing, *polytope.exact, rows_of(reactions.rays, extrema.rays.cols()));
+      enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);
   stopwatch.mark("enclosures");
   ForceRanges ranges = assemble(packing, summarise(packing, polytope),
                                 describe_request(options.contacts, contacts.size()), extrema, enclosures);

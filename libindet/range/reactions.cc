@@ -36,8 +36,9 @@ class BlockSearch {
         purify_to_vertex(*cone_, Eigen::VectorXd::Zero(cone_->dim()), Eigen::VectorXd::Zero(cone_->dim()));
   }
 
-  /// Nothing if the functional (of the block's edges) is the same everywhere in the block.
-  std::optional<BlockAnswer> maximise(const std::vector<std::pair<int, double>>& on_edges) {
+  /// Nothing if the functional (of the block's edges) is the same everywhere in the block. `start`: a vertex.
+  std::optional<BlockAnswer> maximise(const std::vector<std::pair<int, double>>& on_edges,
+                                      const Basis& start) {
     const Objective objective = make_objective(block_.view, on_edges);
     double size = 0;
     for (const auto& [edge, coefficient] : on_edges) size = std::max(size, std::abs(coefficient));
@@ -55,7 +56,7 @@ class BlockSearch {
         return result;
       }
     }
-    const LpAnswer answer = solver_.maximise(objective, block_.lightest);
+    const LpAnswer answer = solver_.maximise(objective, start);
     if (answer.status != LpStatus::kOptimal) return result;
     result.vertex = compute_vertex(block_.view, answer.basis);
     const Eigen::VectorXd costs = result.vertex.multipliers(objective.along_z);
@@ -74,9 +75,9 @@ class BlockSearch {
 
 class ReactionFinder {
  public:
-  ReactionFinder(const Packing& packing, const ForcePolytope& polytope, Formulation formulation,
-                 const LpOptions& options)
-      : packing_(packing), polytope_(polytope), sums_(reaction_sums(packing)) {
+  ReactionFinder(const Packing& packing, const ForcePolytope& polytope, const Extrema& extrema,
+                 Formulation formulation, const LpOptions& options)
+      : packing_(packing), polytope_(polytope), extrema_(extrema), sums_(reaction_sums(packing)) {
     for (const PolytopeBlock& block : polytope.blocks)
       blocks_.push_back(std::make_unique<BlockSearch>(block, formulation, options));
     const auto count = static_cast<Eigen::Index>(sums_.size());
@@ -89,8 +90,9 @@ class ReactionFinder {
     }
     for (auto* table : {&r.value, &r.lower, &r.upper}) table->setConstant(count, 2, kNaN);
     r.outcome.setConstant(count, 2, Outcome::kNotRequested);
-    r.vertex.setConstant(count, 2, -1);
-    r.states.resize(0, static_cast<Eigen::Index>(2 * packing.contact_count()));
+    for (auto* table : {&r.vertex, &r.ray}) table->setConstant(count, 2, -1);
+    for (auto* rows : {&r.states, &r.rays})
+      rows->resize(0, static_cast<Eigen::Index>(2 * packing.contact_count()));
   }
 
   FoundReactions run() {
@@ -106,29 +108,35 @@ class ReactionFinder {
     const double sign = end == 0 ? -1 : 1;
     const Eigen::VectorXd& coefficients = sums_[static_cast<std::size_t>(row)].coefficients;
     SumAtOptimum optimum{sign * coefficients, {}, {}};
-    Outcome outcome = Outcome::kOptimal;
+    Reactions& r = found_.reactions;
+    Outcome& outcome = r.outcome(row, end);
+    outcome = Outcome::kOptimal;
     double dual_residual = 0;
     Eigen::VectorXd x = polytope_.lightest;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const PolytopeBlock& block = polytope_.blocks[b];
-      const auto answer = blocks_[b]->maximise(on_edges(block, optimum.coefficients));
+      const auto objective = on_edges(block, optimum.coefficients);
+      const auto answer = blocks_[b]->maximise(objective, start_of(b, optimum.coefficients));
       if (!answer) continue;
+      if (answer->ray.size() > 0) {
+        Eigen::VectorXd whole = Eigen::VectorXd::Zero(x.size());
+        whole(block.edges) = answer->ray;
+        Eigen::VectorXd ray = polytope_.problem.state(whole).value();
+        r.ray(row, end) = append(r.rays, ray / ray.lpNorm<Eigen::Infinity>());
+      }
+      if (answer->outcome == Outcome::kUnbounded) {
+        // What grows in one block grows whatever the others do.
+        outcome = Outcome::kUnbounded;
+        break;
+      }
       if (answer->outcome != Outcome::kOptimal) {
-        // What grows in one block grows whatever the others do; what failed leaves the sum unknown.
         if (outcome != Outcome::kFailed) outcome = answer->outcome;
-        if (answer->outcome == Outcome::kUnbounded) {
-          Eigen::VectorXd whole = Eigen::VectorXd::Zero(x.size());
-          whole(block.edges) = answer->ray;
-          found_.rays.push_back(polytope_.problem.state(whole).value());
-        }
         continue;
       }
       x(block.edges) = answer->vertex.x;
       optimum.bases.emplace_back(b, answer->vertex.basis);
       dual_residual = std::max(dual_residual, answer->dual_residual);
     }
-    Reactions& r = found_.reactions;
-    r.outcome(row, end) = outcome;
     if (outcome == Outcome::kFailed) return;
     if (outcome != Outcome::kOptimal) {
       r.value(row, end) = sign * kInfinity;
@@ -144,12 +152,41 @@ class ReactionFinder {
         std::max(largest_imbalance(packing_, forces), count_coulomb(packing_, forces, 0).worst_violation) /
         scale;
     if (primal > tolerance::kPrimalResidual || dual_residual > tolerance::kDualResidual)
-      r.outcome(row, end) = Outcome::kImprecise;
-    r.vertex(row, end) = static_cast<std::int32_t>(r.states.rows());
-    r.states.conservativeResize(r.states.rows() + 1, Eigen::NoChange);
-    r.states.bottomRows(1) = forces.value().transpose();
+      outcome = Outcome::kImprecise;
+    r.vertex(row, end) = append(r.states, forces.value());
     found_.optima.push_back(std::move(optimum));
     found_.entries.push_back(static_cast<std::int32_t>(2 * row + end));
+  }
+
+  /// Adds a row, and returns its number.
+  static std::int32_t append(Rows<double>& rows, const Eigen::VectorXd& row) {
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows(1) = row.transpose();
+    return static_cast<std::int32_t>(rows.rows() - 1);
+  }
+
+  /// The basis of that extremal state of a contact in the block at which what the block adds is largest.
+  Basis start_of(std::size_t block, const Eigen::VectorXd& coefficients) const {
+    std::vector<Eigen::Index> summed;
+    for (const int k : polytope_.blocks[block].edges) {
+      const Eigen::Index contact = polytope_.problem.edges[static_cast<std::size_t>(k)].contact.value();
+      const bool is_known = !summed.empty() && summed.back() / 2 == contact;
+      for (const Eigen::Index i : {2 * contact, 2 * contact + 1}) {
+        if (!is_known && coefficients[i] != 0) summed.push_back(i);
+      }
+    }
+    const Basis* best = &polytope_.blocks[block].lightest;
+    double largest = -kInfinity;
+    for (const OptimalBasis& proof : extrema_.proofs) {
+      const int state = extrema_.vertex(proof.contact, proof.column);
+      if (proof.block != block || state < 0) continue;
+      double sum = 0;
+      for (const Eigen::Index i : summed) sum += coefficients[i] * extrema_.states(state, i);
+      if (sum <= largest) continue;
+      largest = sum;
+      best = &proof.basis;
+    }
+    return *best;
   }
 
   std::vector<std::pair<int, double>> on_edges(const PolytopeBlock& block,
@@ -166,6 +203,7 @@ class ReactionFinder {
 
   const Packing& packing_;
   const ForcePolytope& polytope_;
+  const Extrema& extrema_;
   std::vector<ReactionSum> sums_;
   std::vector<std::unique_ptr<BlockSearch>> blocks_;
   FoundReactions found_;
@@ -204,9 +242,9 @@ std::vector<ReactionSum> reaction_sums(const Packing& packing) {
   return sums;
 }
 
-FoundReactions find_reactions(const Packing& packing, const ForcePolytope& polytope, Formulation formulation,
-                              const LpOptions& options) {
-  return ReactionFinder(packing, polytope, formulation, options).run();
+FoundReactions find_reactions(const Packing& packing, const ForcePolytope& polytope, const Extrema& extrema,
+                              Formulation formulation, const LpOptions& options) {
+  return ReactionFinder(packing, polytope, extrema, formulation, options).run();
 }
 
 Reactions certify_reactions(const FoundReactions& found, const std::vector<SumBounds>& bounds, bool proven) {

@@ -8,6 +8,7 @@
 #include "libindet/packing/packing.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/enclosure.h"
+#include "libindet/range/extrema.h"
 #include "libindet/range/outcome.h"
 
 namespace indet {
@@ -38,8 +39,13 @@ struct Reactions {
   Table2<Outcome> outcome;
   Rows<double> states;          ///< [S, 2M]: states that attain the values
   Table2<std::int32_t> vertex;  ///< row of `states`; −1: none
+  Rows<double> rays;         ///< [U, 2M]: directions of ker c ∩ K along which values grow (largest entry 1)
+  Table2<std::int32_t> ray;  ///< row of `rays`; −1: none
 
   Eigen::Index count() const { return body.size(); }
+  std::int64_t certified() const { return number_of(Outcome::kOptimal) + number_of(Outcome::kUnbounded); }
+  std::int64_t uncertain() const { return number_of(Outcome::kImprecise) + number_of(Outcome::kFailed); }
+  std::int64_t number_of(Outcome one) const { return (outcome == one).count(); }
 };
 
 /// Finds the extrema of each sum, block by block, each value recomputed from the state that attains it.
@@ -49,10 +55,10 @@ struct FoundReactions {
   Reactions reactions;                ///< without enclosures
   std::vector<SumAtOptimum> optima;   ///< of those that have a value: minimum and maximum of each sum in turn
   std::vector<std::int32_t> entries;  ///< of each optimum: 2 · row + (0 minimum, 1 maximum)
-  std::vector<Eigen::VectorXd> rays;  ///< 2M each: along which the unbounded ones grow
 };
-FoundReactions find_reactions(const Packing& packing, const ForcePolytope& polytope, Formulation formulation,
-                              const LpOptions& options);
+/// Each search starts from that extremal state of `extrema` at which the sum is largest.
+FoundReactions find_reactions(const Packing& packing, const ForcePolytope& polytope, const Extrema& extrema,
+                              Formulation formulation, const LpOptions& options);
 
 /// Puts the enclosures (of the `optima`, in their order) in. Where `proven` is not set, nothing is certified.
 Reactions certify_reactions(const FoundReactions& found, const std::vector<SumBounds>& bounds, bool proven);

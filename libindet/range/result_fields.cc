@@ -26,6 +26,14 @@ const char* to_string(Extent extent) {
       return "Q";
     case Extent::kActive:
       return "d";
+    case Extent::kReactions:
+      return "P";
+    case Extent::kEnds:
+      return "2";
+    case Extent::kReactionStates:
+      return "S";
+    case Extent::kReactionRays:
+      return "U";
   }
   return "?";
 }

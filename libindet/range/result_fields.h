@@ -8,21 +8,27 @@
 
 namespace indet {
 
-/// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F.
+/// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F; P reactions, of which S
+/// states and U rays.
 enum class Extent : std::uint8_t {
   kOne,
-  kDirections,  ///< 2: along normal and tangent, or x and y
-  kComponents,  ///< 3: x, y, rotation
-  kColumns,     ///< 4: R_min, R_max, T_min, T_max
-  kDisks,       ///< N
-  kWalls,       ///< W
-  kContacts,    ///< M
-  kForces,      ///< 2M: R_1, T_1, …, R_M, T_M
-  kStates,      ///< K
-  kRays,        ///< Q
-  kActive       ///< d
+  kDirections,      ///< 2: along normal and tangent, or x and y
+  kComponents,      ///< 3: x, y, rotation
+  kColumns,         ///< 4: R_min, R_max, T_min, T_max
+  kDisks,           ///< N
+  kWalls,           ///< W
+  kContacts,        ///< M
+  kForces,          ///< 2M: R_1, T_1, …, R_M, T_M
+  kStates,          ///< K
+  kRays,            ///< Q
+  kActive,          ///< d
+  kReactions,       ///< P
+  kEnds,            ///< 2: minimum, maximum
+  kReactionStates,  ///< S
+  kReactionRays     ///< U
 };
-const char* to_string(Extent extent);  ///< "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d".
+/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "S", "U".
+const char* to_string(Extent extent);
 
 /// When a field has something to say; else files leave it out.
 enum class Presence : std::uint8_t {
@@ -48,7 +54,7 @@ enum class FieldSource : std::uint8_t {
 /// One field of the results, and what is told of it everywhere: in files, JSON, tables, tests. `group` and
 /// `name` are those of the HDF5 object, a dataset where the shape is not 1 × 1 and otherwise an attribute of
 /// `group`. `unit` is "1" for pure numbers and text, "mg" for forces in the packing's unit of force, and
-/// "force" for those in the scene's.
+/// "force" for those in the scene's ("force*length" for torques).
 struct Field {
   const char* group;
   const char* name;
@@ -160,6 +166,36 @@ void visit_certified(Part& r, Visit& visit) {
             r.worst_primal_residual);
   attribute("worst_dual_residual", "largest entry of dual_residual", FieldSource::kRounding,
             r.worst_dual_residual);
+}
+
+template <class Part, class Visit>
+void visit_reactions(Part& r, Visit& visit) {
+  const auto field = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                         Extent rows, Extent columns, auto& value) {
+    visit(Field{"/reactions", name, unit, meaning, source, rows, columns, Presence::kWhereRows}, value);
+  };
+  field("body", "1", "row of a fixed disk, or -(w+1) for the wall of row w", FieldSource::kProblem,
+        Extent::kReactions, Extent::kOne, r.body);
+  field("component", "1", "wall: 0 sum of R, 1 sum of T; disk: 0, 1 force x, y on it, 2 torque on it",
+        FieldSource::kProblem, Extent::kReactions, Extent::kOne, r.component);
+  const auto ends = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                        auto& value) {
+    field(name, unit, meaning, source, Extent::kReactions, Extent::kEnds, value);
+  };
+  const char* const unit = "force or force*length";
+  ends("value", unit, "smallest and largest value, inf where unbounded, NaN where not found",
+       FieldSource::kAnswer, r.value);
+  ends("lower", unit, "lower end of the enclosure of both", FieldSource::kEnclosure, r.lower);
+  ends("upper", unit, "upper end of the enclosure of both", FieldSource::kEnclosure, r.upper);
+  ends("outcome", "1", "what became of both", FieldSource::kAnswer, r.outcome);
+  ends("vertex", "1", "row of /reactions/states that attains the value, -1 for none", FieldSource::kProof,
+       r.vertex);
+  ends("ray", "1", "row of /reactions/rays along which the value grows without limit, -1 for none",
+       FieldSource::kProof, r.ray);
+  field("states", "force", "states (R_1, T_1, ..., R_M, T_M) that attain the values", FieldSource::kProof,
+        Extent::kReactionStates, Extent::kForces, r.states);
+  field("rays", "1", "directions (R_1, T_1, ..., R_M, T_M) along which values grow without limit",
+        FieldSource::kProof, Extent::kReactionRays, Extent::kForces, r.rays);
 }
 
 template <class Part, class Visit>
@@ -278,6 +314,7 @@ void visit_fields(Ranges& ranges, Visit&& visit) {
   result_fields::visit_certified(ranges, visit);
   result_fields::visit_extremal(ranges, visit);
   result_fields::visit_measures(ranges, visit);
+  result_fields::visit_reactions(ranges.reactions, visit);
   result_fields::visit_work(ranges, visit);
 }
 

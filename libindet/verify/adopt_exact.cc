@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/range/force_ranges.h"
 #include "libindet/verify/exact_check.h"
 
@@ -65,6 +66,40 @@ Extrema stored_extrema(const ForceRanges& ranges) {
   return extrema;
 }
 
+/// Where not `proven`, nothing is certified.
+Reactions adopt_reactions(const ExactReactions& check, const Reactions& stored, bool proven) {
+  Reactions r = stored;
+  Rows<double> states(0, stored.states.cols());
+  const auto add = [&](const auto& row) {
+    states.conservativeResize(states.rows() + 1, Eigen::NoChange);
+    states.bottomRows(1) = row;
+    return static_cast<std::int32_t>(states.rows() - 1);
+  };
+  for (Eigen::Index k = 0; k < r.count(); ++k) {
+    for (const int end : {0, 1}) {
+      Outcome& outcome = r.outcome(k, end);
+      if (check.proof(k, end) == Proof::kProven || check.proof(k, end) == Proof::kRepaired) {
+        r.value(k, end) = check.value(k, end);
+        r.lower(k, end) = check.lower(k, end);
+        r.upper(k, end) = check.upper(k, end);
+        const bool infinite = std::isinf(check.value(k, end));
+        outcome = infinite ? Outcome::kUnbounded : Outcome::kOptimal;
+        r.vertex(k, end) = infinite ? -1 : add(check.states.row(check.vertex(k, end)));
+        if (!infinite) r.ray(k, end) = -1;
+      } else if (r.vertex(k, end) >= 0) {
+        r.vertex(k, end) = add(stored.states.row(r.vertex(k, end)));
+      }
+      const bool has_proof = outcome != Outcome::kUnbounded || r.ray(k, end) >= 0;
+      if (std::isnan(r.value(k, end)) || (proven && has_proof)) continue;
+      outcome = Outcome::kImprecise;
+      r.lower(k, end) = -kInfinity;
+      r.upper(k, end) = kInfinity;
+    }
+  }
+  r.states = std::move(states);
+  return r;
+}
+
 }  // namespace
 
 ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const ForceRanges& ranges) {
@@ -100,7 +135,7 @@ ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const F
   states.write(extrema);
   ForceRanges result = assemble(packing, ranges, ranges, extrema, enclosures);
   result.seconds = ranges.seconds;
-  result.reactions = ranges.reactions;
+  result.reactions = adopt_reactions(check.reactions, ranges.reactions, enclosures.proven);
   return result;
 }
 

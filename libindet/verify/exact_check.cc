@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -69,6 +70,9 @@ class Check {
       check_emptiness();
     } else {
       check_objectives();
+      report_.reactions = check_reactions_exactly(packing_, ranges_, problem_, options_.pivot_limit,
+                                                  [&] { return has_solution(); });
+      report_.add(report_.reactions);
     }
     return std::move(report_);
   }
@@ -76,9 +80,7 @@ class Check {
  private:
   template <class... Parts>
   void say(fmt::format_string<Parts...> text, Parts&&... parts) {
-    constexpr std::size_t kShown = 20;
-    if (report_.messages.size() < kShown)
-      report_.messages.push_back(fmt::format(text, std::forward<Parts>(parts)...));
+    report_.add_message(fmt::format(text, std::forward<Parts>(parts)...));
   }
 
   std::vector<double> no_preference() const {
@@ -226,7 +228,7 @@ class Check {
     if (is_new) {
       Eigen::VectorXd state(2 * packing_.contact_count());
       for (int component = 0; component < state.size(); ++component)
-        state[component] = nearest(optimum.basis->force(component));
+        state[component] = exact::nearest(optimum.basis->force(component));
       rows_.push_back(std::move(state));
       std::vector<std::int32_t> zero;
       for (int e = 0; e < problem_.edges(); ++e) {
@@ -235,15 +237,6 @@ class Check {
       report_.zero_edges.push_back(std::move(zero));
     }
     return entry->second;
-  }
-
-  static double nearest(const mpq_class& value) {
-    const exact::Enclosure enclosure = exact::enclose(value);
-    if (std::isinf(enclosure.lower) || std::isinf(enclosure.upper))
-      return value > 0 ? enclosure.lower : enclosure.upper;
-    const bool low =
-        mpq_class(value - mpq_class(enclosure.lower)) <= mpq_class(mpq_class(enclosure.upper) - value);
-    return low ? enclosure.lower : enclosure.upper;
   }
 
   void record(const Answer& answer) {
@@ -303,10 +296,7 @@ class Check {
         say("{}: not decided within {} exact pivots", place, answer.optimum.pivots);
         break;
     }
-    report_.proven += proof == Proof::kProven ? 1 : 0;
-    report_.repaired += proof == Proof::kRepaired ? 1 : 0;
-    report_.refuted += proof == Proof::kRefuted ? 1 : 0;
-    report_.undecided += proof == Proof::kUndecided ? 1 : 0;
+    report_.count(proof);
   }
 
   bool contains(Eigen::Index i, int column, const mpq_class& value) const {

@@ -7,51 +7,10 @@
 #include <vector>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/verify/rebuilt_sums.h"
 
 namespace indet {
 namespace {
-
-/// Contact by contact, what a sum adds: (of R, of T).
-Vector2 share_of(const Packing& packing, const Contact& contact, Body body, int component) {
-  const bool is_a = !body.is_wall() && contact.a == body.disk_id();
-  if (!is_a && contact.b != body) return {0, 0};
-  Vector2 share(0, 0);
-  if (body.is_wall()) {
-    share[component] = 1;
-  } else if (component == 2) {
-    const double lever = is_a ? contact.lever_a : contact.lever_b;
-    share.y() = std::isnan(lever) ? packing[body.disk_id()].radius : lever;
-  } else {
-    const Vector2 tangent(contact.normal.y(), -contact.normal.x());
-    share = Vector2(contact.normal[component], tangent[component]) * (is_a ? 1 : -1);
-  }
-  if (contact.mu == 0) share.y() = 0;
-  return share;
-}
-
-struct Sum {
-  Body body;
-  int component = 0;
-  Eigen::VectorXd coefficients;
-};
-
-std::vector<Sum> sums_of(const Packing& packing) {
-  std::vector<Sum> sums;
-  const auto add = [&](Body body, int components) {
-    for (int k = 0; k < components; ++k) {
-      Sum sum{body, k, Eigen::VectorXd(2 * packing.contact_count())};
-      for (int i = 0; i < packing.contact_count(); ++i)
-        sum.coefficients.segment<2>(2 * i) = share_of(packing, packing[ContactId(i)], body, k);
-      if (sum.coefficients.size() > 0 && sum.coefficients.cwiseAbs().maxCoeff() > 0)
-        sums.push_back(std::move(sum));
-    }
-  };
-  for (int w = 0; w < packing.wall_count(); ++w) add(Body::wall(WallId(w)), 2);
-  for (int i = 0; i < packing.disk_count(); ++i) {
-    if (packing[DiskId(i)].fixed) add(Body::disk(DiskId(i)), 3);
-  }
-  return sums;
-}
 
 class ReactionCheck {
  public:
@@ -61,12 +20,12 @@ class ReactionCheck {
 
   void run() {
     if (r_.count() == 0) return;  // an earlier version, or nothing to bear
-    const std::vector<Sum> sums = sums_of(packing_);
+    const std::vector<RebuiltSum> sums = rebuilt_sums(packing_);
     if (!compare_.require(static_cast<std::size_t>(r_.count()) == sums.size(),
                           "reactions: {} rows for {} sums", r_.count(), sums.size()))
       return;
     for (Eigen::Index k = 0; k < r_.count(); ++k) {
-      const Sum& sum = sums[static_cast<std::size_t>(k)];
+      const RebuiltSum& sum = sums[static_cast<std::size_t>(k)];
       if (!compare_.require(sum.body.code() == r_.body[k] && sum.component == r_.component[k],
                             "reactions: row {} is not that of body {}, component {}", k, sum.body.code(),
                             sum.component))
@@ -74,10 +33,20 @@ class ReactionCheck {
       for (const int end : {0, 1}) check(k, end, sum);
       check_other_states(k, sum);
     }
+    compare_.equal_count(r_.states.rows(), next_state_, "reactions: states");
+    for (Eigen::Index q = 0; q < r_.rays.rows(); ++q) {
+      const Eigen::VectorXd ray = r_.rays.row(q).transpose();
+      const double residual = std::max(problem_.imbalance_without_load(ray), problem_.violation(ray));
+      compare_.require(residual <= tolerance::kStoredRay, "reactions: ray {} is not one ({})", q, residual);
+    }
+    if (r_.uncertain() > 0)
+      compare_.call_unsolved(fmt::format("{} extrema of reactions uncertain", r_.uncertain()));
+    if (ranges_.status != PolytopeStatus::kEmpty)
+      compare_.leave_unchecked("lower, upper of /reactions (--exact checks them)");
   }
 
  private:
-  void check(Eigen::Index k, int end, const Sum& sum) {
+  void check(Eigen::Index k, int end, const RebuiltSum& sum) {
     const std::string place = fmt::format("reactions: {} of row {}", end == 0 ? "minimum" : "maximum", k);
     const Outcome outcome = r_.outcome(k, end);
     const double value = r_.value(k, end);
@@ -86,16 +55,22 @@ class ReactionCheck {
         outcome == Outcome::kOptimal || outcome == Outcome::kImprecise || outcome == Outcome::kUnbounded;
     compare_.require(has_value != std::isnan(value), "{}: {}, but {} is stored", place, to_string(outcome),
                      value);
-    compare_.require(!ranges_.doubtful || (outcome != Outcome::kOptimal && outcome != Outcome::kUnbounded),
-                     "{}: certified, though the polytope is in doubt", place);
     if (std::isnan(value)) return;
+    const Outcome other = std::isinf(value) ? Outcome::kOptimal : Outcome::kUnbounded;
+    compare_.require(outcome != other, "{}: {}, but {} is stored", place, to_string(outcome), value);
     compare_.require(r_.lower(k, end) <= value && value <= r_.upper(k, end),
                      "{}: the value {} is not within its bounds", place, value);
     if (std::isinf(value)) {
       compare_.require((value > 0) == (end == 1), "{}: wrong sign of infinity", place);
+      const int ray = r_.ray(k, end);
+      if (compare_.require(ray >= 0, "{}: no ray shows that it is unbounded", place)) {
+        compare_.require(sum.coefficients.dot(r_.rays.row(ray).transpose()) * value > 0,
+                         "{}: it does not grow along its ray {}", place, ray);
+      }
       return;
     }
-    if (!compare_.require(vertex >= 0, "{}: there is no state", place)) return;
+    if (!compare_.require(vertex == next_state_++, "{}: state {} is not its own", place, vertex)) return;
+    compare_.require(r_.ray(k, end) < 0, "{}: a finite value with a ray", place);
     const Eigen::VectorXd forces = r_.states.row(vertex).transpose() / ranges_.force_unit;
     const double scale = std::max(problem_.internal_unit(), forces.lpNorm<Eigen::Infinity>());
     const double found = sum.coefficients.dot(r_.states.row(vertex).transpose());
@@ -117,7 +92,7 @@ class ReactionCheck {
   }
 
   /// No state of the file is outside of the range.
-  void check_other_states(Eigen::Index k, const Sum& sum) {
+  void check_other_states(Eigen::Index k, const RebuiltSum& sum) {
     for (Eigen::Index row = 0; row < ranges_.states.rows(); ++row) {
       const double value = sum.coefficients.dot(ranges_.states.row(row).transpose());
       const double size = sum.coefficients.cwiseAbs().dot(ranges_.states.row(row).transpose().cwiseAbs());
@@ -136,6 +111,7 @@ class ReactionCheck {
   const Reactions& r_;
   const RebuiltProblem& problem_;
   Comparisons& compare_;
+  int next_state_ = 0;  ///< each finite end has a state of its own, in the order of the rows
 };
 
 }  // namespace

@@ -33,8 +33,8 @@ class Verifier {
     check_measures();
     check_counts();
     check_hull();
-    check_reactions(packing_, ranges_, problem_, compare_);
     name_the_rest();
+    check_reactions(packing_, ranges_, problem_, compare_);
     return compare_.result();
   }
 
@@ -234,7 +234,9 @@ class Verifier {
     compare_.equal_count(ranges_.imprecise, counts[static_cast<int>(Outcome::kImprecise)], "imprecise");
     compare_.equal_count(ranges_.failed, counts[static_cast<int>(Outcome::kFailed)], "failed");
     const auto certain = counts[static_cast<int>(Outcome::kOptimal)] + ranges_.unbounded;
-    compare_.require(!ranges_.doubtful || certain == 0, "doubtful: yet {} objectives are certified", certain);
+    const auto also = ranges_.reactions.certified();
+    compare_.require(!ranges_.doubtful || certain + also == 0,
+                     "doubtful: yet {} objectives and {} ends of reactions are certified", certain, also);
     check_worst_residuals();
     check_sliding();
     check_choice();
@@ -371,8 +373,7 @@ class Verifier {
       compare_.call_unsolved("that the packing cannot stand is in doubt");
     compare_.leave_unchecked(
         "rank_gap, smallest_accepted, largest_rejected, rank_ambiguous, doubtful of /equilibrium (they "
-        "belong "
-        "to the factorisation of the analysis)");
+        "belong to the factorisation of the analysis)");
     if (ranges_.choice == ContactChoice::Kind::kSample)
       compare_.leave_unchecked("sample_seed (contacts are not drawn again)");
     if (ranges_.status == PolytopeStatus::kEmpty) return;

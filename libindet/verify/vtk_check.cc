@@ -71,14 +71,18 @@ class VtkVerifier {
     const auto points = file_.read_doubles(kGroup + "Points", {count, 3});
     const auto radius = file_.read_doubles(kGroup + "PointData/radius", {count});
     const auto body = file_.read_integers(kGroup + "PointData/body", {count});
+    const bool has_fixed = file_.has(kGroup + "PointData/fixed");
+    const auto fixed = has_fixed ? file_.read_bytes(kGroup + "PointData/fixed", {count})
+                                 : std::vector<std::uint8_t>(count, 0);
     const auto check = [&](std::size_t i, const Vector2& position, double right_radius,
                            std::int32_t right_body) {
       const double distance =
           std::hypot(points[3 * i] - position.x(), points[3 * i + 1] - position.y(), points[3 * i + 2]);
       const double scale = std::max(packing_.max_radius(), position.lpNorm<Eigen::Infinity>());
-      compare_.require(
-          distance <= tolerance::kAgreement * scale && radius[i] == right_radius && body[i] == right_body,
-          "point {}: it is not where disk or wall {} has it, or has another radius", i, right_body);
+      compare_.require(distance <= tolerance::kAgreement * scale && radius[i] == right_radius &&
+                           body[i] == right_body &&
+                           (fixed[i] == 1) == (right_body >= 0 && packing_[DiskId(right_body)].fixed),
+                       "point {}: it is not where disk or wall {} has it, or differs from it", i, right_body);
     };
     std::size_t i = 0;
     for (; i < packing_.disks.size(); ++i) {

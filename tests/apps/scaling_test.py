@@ -24,7 +24,9 @@ POWERS = [(40, -40, 60), (-60, 40, 40)]
 UNITS_OF_NAMES = {"x": "length", "y": "length", "px": "length", "py": "length", "gap": "length", "radius": "length",
                   "r_max": "length", "Lx": "length", "Ly": "length", "mass": "mass", "inertia": "mass*length^2",
                   "vx": "length/time", "vy": "length/time", "omega": "rad/time", "fx": "force", "fy": "force", "R": "force",
-                  "T": "force", "gravity": "acceleration", "force_unit": "force", "start": "time", "end": "time"}
+                  "T": "force", "gravity": "acceleration", "force_unit": "force", "start": "time", "end": "time",
+                  # of reactions of walls
+                  "minimum": "force", "maximum": "force", "minimum_bounds": "force", "maximum_bounds": "force"}
 # Lines of `inspect` that show numbers in the scene's units, or name the file.
 OWN_LINES = ("file ", "  disks ", "  gravity ", "  made in ", "written ", "contents ", "  SHA-256 ",
              "trajectory ")

@@ -55,6 +55,7 @@ class EnsembleTest(program.ProgramTest):
         self.made_ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        reactions = table(self.folder / "e/ensemble.h5", "reactions")
         self.assertEqual([name.decode() for name in runs["member"]],
                          [f"{p}-{s:04}" for p in ("cd1", "cd2", "md1", "md2") for s in (0, 1)])
         shown = json.loads(self.run_indet("inspect", "e", "--json").stdout)
@@ -71,6 +72,14 @@ class EnsembleTest(program.ProgramTest):
                 for states in ("extremal_R", "solver_extremal_R"):
                     self.assertEqual(member[f"ensemble/{states}"][()].sum(), 4 * runs["contacts"][row] ** 2)
                 self.assertEqual(runs["r"][row], member["sampling"].attrs["r"])
+                mine = reactions["run"] == row
+                self.assertGreater(mine.sum(), 1)
+                for column, name_there, end in (("minimum", "value", 0), ("maximum", "value", 1), ("lower", "lower", 0),
+                                                ("upper", "upper", 1)):
+                    np.testing.assert_allclose(reactions[column][mine],
+                                               member[f"reactions/{name_there}"][:, end] / runs["mg"][row])
+                for column in ("body", "component"):
+                    np.testing.assert_array_equal(reactions[column][mine], member[f"reactions/{column}"][()])
             self.run_indet("verify", f"e/members/{name.decode()}.h5")
 
     def test_distances_compare_contacts_by_their_bodies(self):

@@ -39,7 +39,7 @@ class Samples(unittest.TestCase):
             self.assertIsNotNone(thing[()])
 
         self.file.visititems(check)
-        self.assertEqual(len(found), 43 + 10, found)  # ten of /VTKHDF are not links to others
+        self.assertEqual(len(found), 53 + 10, found)  # ten of /VTKHDF are not links to others
 
     def test_root(self):
         self.assertEqual(self.file.attrs["Conventions"], "H5MD-1.1 indet-1")
@@ -137,6 +137,19 @@ class Samples(unittest.TestCase):
         self.equal("extremal/active", k + np.arange(3.0), "<i4")
         self.assertEqual(self.file["extremal"].attrs["largest_norm"], 6)
 
+    def test_reactions(self):
+        k, end = np.arange(4.0)[:, None], np.arange(2.0)
+        self.equal("reactions/body", [-1, -1, -2, -2], "<i4")
+        self.equal("reactions/component", [0, 1, 0, 1], "<i4")
+        for name, beside in (("value", 0), ("lower", -0.25), ("upper", 0.25)):
+            self.equal(f"reactions/{name}", 20 + 10 * k + end + beside, "<f8")
+        vertex, ray = (k + end) % 3, np.full((4, 2), -1.0)
+        vertex[3, 1], ray[3, 1] = -1, 0
+        self.equal("reactions/vertex", vertex, "<i4")
+        self.equal("reactions/ray", ray, "<i4")
+        self.equal("reactions/states", 100 * np.arange(3.0)[:, None] + np.arange(10.0) + 0.5, "<f8")
+        self.equal("reactions/rays", np.arange(10.0)[None], "<f8")
+
     def test_provenance(self):
         group = self.file["provenance"]
         self.assertEqual(list(group.attrs["argv"]), ["indet", "analyze"])
@@ -150,7 +163,7 @@ class Samples(unittest.TestCase):
         self.assertEqual(done.stdout, "True\nTrue\n")
 
     def test_files_have_the_fields_of_the_list(self):
-        sizes = {"3": 3, "4": 4, "N": 3, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3}
+        sizes = {"2": 2, "3": 3, "4": 4, "N": 3, "W": 2, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3, "P": 4, "S": 3, "U": 1}
         types = {"f8": "<f8", "i4": "<i4", "u1": "u1", "enum": "u1"}
         with h5py.File(f"{FOLDER}/rare.h5", "r") as file:
             for group, name, kind, shape, unit, meaning in FIELDS:
@@ -164,7 +177,7 @@ class Samples(unittest.TestCase):
                     self.assertEqual(dataset.shape, tuple(sizes[size] for size in shape.split(",")))
                     self.assertEqual((dataset.attrs["unit"], dataset.attrs["long_name"]), (unit, meaning))
             stored = set()
-            for group in ["equilibrium", "ranges", "extremal", "provenance/work"]:
+            for group in ["equilibrium", "ranges", "extremal", "reactions", "provenance/work"]:
                 stored |= {(f"/{group}", name) for name in [*file[group].attrs, *file[group]]}
         # Of no result: the digest, and the level of confidence that all samples share.
         self.assertEqual(stored - {("/ranges", "sha256"), ("/ranges", "confidence")},

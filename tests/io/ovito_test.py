@@ -119,6 +119,19 @@ class Ovito(program.ProgramTest):
         self.assertEqual(len(bonds["index"]), 0)
         np.testing.assert_array_equal(bounds, [[2.5, 3.5], [3.5, 4.5], [-0.5, 0.5]])
 
+    def test_fixed_disks_and_levers(self):
+        scene = {"disks.csv": "id,x,y,radius,mass,fixed\n0,0,0,1,1,\n5,-1.5,-2.598076211353316,2,3,1\n",
+                 "walls.csv": "id,px,py,nx,ny\n0,1,0,-1,0\n",
+                 "contacts.csv": "a,b,mu,lever_a,lever_b\n0,5,0.3,0.9,\n0,-1,0.2,,\n"}
+        self.packing(scene)
+        for _ in range(2):  # known as its own, and replaced
+            self.run_indet("export", "p.h5", "-o", "p.extxyz")
+        particles, _ = read_extxyz(self.folder / "p.extxyz")
+        bonds, _ = read_dump_local(self.folder / "p.bonds.dump")
+        self.assertEqual(particles["species"].tolist(), ["X", "F", "W"])
+        np.testing.assert_array_equal(bonds["lever_a"], [0.9, 1])
+        np.testing.assert_array_equal(bonds["lever_b"], [2, np.nan])
+
     def test_what_is_replaced(self):
         self.packing(program.pyramid())
         for _ in range(2):

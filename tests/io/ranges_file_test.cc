@@ -162,6 +162,8 @@ TEST(RangesFile, AnEmptyPolytopeKeepsItsMotion) {
   written.ray.setConstant(-1);
   written.motion.resize(3, 3);
   written.motion << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  written.wall_motion.resize(2, 2);
+  written.wall_motion << 1, 2, 3, 4;
   written.states.resize(0, 10);
   written.norm.resize(0);
   written.active.resize(0, 0);
@@ -178,6 +180,22 @@ TEST(RangesFile, PointersToNoStateAreRefused) {
   write_ranges(folder / "r.h5", test::sample_packing(), ranges, {});
   EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },
               ThrowsMessage<InputError>(HasSubstr("/ranges/vertex: points to state 7, but there are 7")));
+}
+
+TEST(RangesFile, ReactionsOfNoBodyAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto refuses = [&](const char* reason, auto change) {
+    ForceRanges ranges = test::sample_ranges();
+    change(ranges.reactions);
+    write_ranges(folder / "r.h5", test::sample_packing(), ranges, {});
+    EXPECT_THAT([&] { read_ranges(folder / "r.h5"); }, ThrowsMessage<InputError>(HasSubstr(reason)));
+  };
+  refuses("/reactions/vertex: points to state 3, but there are 3", [](Reactions& r) { r.vertex(1, 1) = 3; });
+  refuses("/reactions/ray: points to ray 1, but there are 1", [](Reactions& r) { r.ray(0, 0) = 1; });
+  refuses("/reactions/body: there is no body -3", [](Reactions& r) { r.body[3] = -3; });
+  refuses("/reactions/component: there is no component 2 of body -2",
+          [](Reactions& r) { r.component[2] = 2; });
+  refuses("/reactions: some of its tables are missing", [](Reactions& r) { r.ray.resize(0, 2); });
 }
 
 TEST(RangesFile, AFileWithoutRangesSaysSo) {

@@ -48,6 +48,35 @@ inline Packing sample_packing() {
   return packing;
 }
 
+/// Reactions of the packing above, of numbers that mean nothing: P = 4 sums, S = 3 states, U = 1 ray.
+inline Reactions sample_reactions() {
+  Reactions r;
+  r.body.resize(4);
+  r.component.resize(4);
+  r.outcome.setConstant(4, 2, Outcome::kOptimal);
+  for (auto* table : {&r.value, &r.lower, &r.upper}) table->resize(4, 2);
+  for (auto* table : {&r.vertex, &r.ray}) table->setConstant(4, 2, -1);
+  for (int k = 0; k < 4; ++k) {
+    r.body[k] = -1 - k / 2;
+    r.component[k] = k % 2;
+    for (int end = 0; end < 2; ++end) {
+      r.value(k, end) = 20 + 10 * k + end;
+      r.lower(k, end) = 20 + 10 * k + end - 0.25;
+      r.upper(k, end) = 20 + 10 * k + end + 0.25;
+      r.vertex(k, end) = (k + end) % 3;
+    }
+  }
+  r.outcome(3, 1) = Outcome::kUnbounded;
+  r.vertex(3, 1) = -1;
+  r.ray(3, 1) = 0;
+  r.states.resize(3, 10);
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 10; ++j) r.states(k, j) = 100 * k + j + 0.5;
+  }
+  r.rays = Eigen::RowVectorXd::LinSpaced(10, 0, 9);
+  return r;
+}
+
 /// Ranges of the packing above with K = 7 states and dim F = 3. The numbers mean nothing; each is a different
 /// function of its row and column.
 inline ForceRanges sample_ranges() {
@@ -128,6 +157,7 @@ inline ForceRanges sample_ranges() {
   ranges.unbounded = 4;
   ranges.worst_primal_residual = 4.3e-14;
   ranges.worst_dual_residual = 2.5e-15;
+  ranges.reactions = sample_reactions();
   ranges.seconds = {{"rank", 0.25}, {"ranges", 1.5}};
   return ranges;
 }

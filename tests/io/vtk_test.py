@@ -103,6 +103,24 @@ class Vtk(program.ProgramTest):
                 self.assertEqual(file["VTKHDF/CellData"][column], file["ranges"][column], column)
             self.assertEqual(file["VTKHDF/CellData/R"], file["contacts/R"])
 
+    def test_fixed_disks_and_levers(self):
+        """A disk between two fixed ones, one of which has a lever of its own; and none of both, as above."""
+        scene = {"disks.csv": "id,x,y,radius,mass,fixed\n0,0,0,1,1,\n5,-1,-1.7320508075688772,1,,1\n7,1,-1.7320508075688772,1,,1\n",
+                 "contacts.csv": "a,b,lever_a,lever_b\n0,5,0.9,0.8\n7,0,,\n", "scene.toml": "mu = 0.3\n"}
+        self.run_indet("analyze", self.packing(scene), "-o", "r.h5")
+        self.run_indet("export", "r.h5", "-o", "r.vtkhdf")
+        self.run_indet("verify", "r.h5")
+        with h5py.File(self.folder / "r.h5") as file:
+            for name in ("r.h5", "r.vtkhdf"):
+                grid = self.grid(name)
+                self.assert_is_the_packing(grid, file)
+                np.testing.assert_array_equal(grid.point_data["fixed"], [0, 1, 1])
+                np.testing.assert_array_equal(grid.cell_data["lever_a"], [0.9, np.nan])
+                np.testing.assert_array_equal(grid.cell_data["lever_b"], [0.8, np.nan])
+        with h5py.File(self.folder / "r.h5", "r+") as file:
+            file["VTKHDF/PointData/fixed"][1] = 0
+        self.assertIn("point 1: it is not where", self.run_indet("verify", "r.h5", status=5).stdout)
+
     def test_unbounded_and_unknown_values(self):
         """A disk between two vertical walls can be jammed: R_max = inf. Of an empty polytope all is NaN."""
         jammed = {"disks.csv": "id,x,y,radius,mass\n0,0,0,1,1\n", "contacts.csv": "a,b\n0,-1\n0,-2\n",

@@ -67,6 +67,62 @@ def pyramid(mu=0.5, forces=None):
             "scene.toml": f"gravity = [0, -1]\nmu = {mu}\n"}
 
 
+def between_plates(load, count=1, mu=0, tangential="", floor=""):
+    """Disks of weight 1 on a floor, under a plate."""
+    disks = "".join(f"{i},{3 * i},1,1,1\n" for i in range(count))
+    contacts = "".join(f"{i},-1\n" for i in range(count)) + "".join(f"{i},-2\n" for i in range(count))
+    return {"disks.csv": "id,x,y,radius,mass\n" + disks,
+            "walls.csv": f"id,px,py,nx,ny,name,load_n,load_t\n0,0,0,0,1,floor,{floor},\n1,0,2,0,-1,plate,{load},{tangential}\n",
+            "contacts.csv": "a,b\n" + contacts, "scene.toml": f"gravity = [0, -1]\nmu = {mu}\n"}
+
+
+def rack(loads=(1, 1, 1)):
+    """Three balls of radius 1 in a triangular rack, without friction and weight, under the loads of its three sides:
+
+          2
+         0 1        contact 3 i: ball i and the next one; the others: walls
+    """
+    h = math.sqrt(3)
+    centres = [(-1, 0), (1, 0), (0, h)]
+    walls, contacts = [], []
+    for i in range(3):
+        (x1, y1), (x2, y2), (x3, y3) = (centres[(i + k) % 3] for k in range(3))
+        x, y = (x1 + x2) / 2, (y1 + y2) / 2
+        length = math.hypot(x3 - x, y3 - y)
+        nx, ny = (x3 - x) / length, (y3 - y) / length
+        walls.append(f"{i},{x - nx!r},{y - ny!r},{nx!r},{ny!r},side{i},{loads[i]}")
+        contacts += [f"{i},{(i + 1) % 3}", f"{i},{-1 - i}", f"{(i + 1) % 3},{-1 - i}"]
+    return {"disks.csv": "id,x,y,radius,mass\n" + "".join(f"{i},{x!r},{y!r},1,1\n" for i, (x, y) in enumerate(centres)),
+            "walls.csv": "id,px,py,nx,ny,name,load_n\n" + "\n".join(walls) + "\n",
+            "contacts.csv": "a,b\n" + "\n".join(contacts) + "\n",
+            "scene.toml": "gravity = [0, 0]\nmu = 0\nforce_unit = 1\n"}
+
+
+def plates_at_a_column(count, load, mu):
+    """Disks of radius and weight 1 on top of each other on a floor, and a plate on the last; contact k lies below disk k."""
+    return {"disks.csv": "id,x,y,radius,mass\n" + "".join(f"{i},0,{2 * i + 1},1,1\n" for i in range(count)),
+            "walls.csv": f"id,px,py,nx,ny,name,load_n\n0,0,0,0,1,floor,\n1,0,{2 * count},0,-1,plate,{load}\n",
+            "contacts.csv": "a,b\n0,-1\n" + "".join(f"{i},{i - 1}\n" for i in range(1, count)) + f"{count - 1},-2\n",
+            "scene.toml": f"gravity = [0, -1]\nmu = {mu}\n"}
+
+
+def biaxial_box(columns, rows, from_right, from_above, mu):
+    """Disks of radius 1 on a square lattice without gravity, between fixed walls at the left and below and pistons at the
+    right and above. Contacts: row by row from the left wall to the right one, then column by column from below."""
+    disk = [[columns * y + x for x in range(columns)] for y in range(rows)]
+    contacts = []
+    for y in range(rows):
+        contacts += [(disk[y][0], -1)] + [(disk[y][x], disk[y][x - 1]) for x in range(1, columns)] + [(disk[y][-1], -2)]
+    for x in range(columns):
+        contacts += [(disk[0][x], -3)] + [(disk[y][x], disk[y - 1][x]) for y in range(1, rows)] + [(disk[-1][x], -4)]
+    return {"disks.csv": "id,x,y,radius,mass\n" + "".join(f"{disk[y][x]},{2 * x + 1},{2 * y + 1},1,1\n"
+                                                          for y in range(rows) for x in range(columns)),
+            "walls.csv": f"id,px,py,nx,ny,name,load_n\n0,0,0,1,0,left,\n1,{2 * columns},0,-1,0,right,{from_right!r}\n"
+                         f"2,0,0,0,1,below,\n3,0,{2 * rows},0,-1,above,{from_above!r}\n",
+            "contacts.csv": "a,b\n" + "".join(f"{a},{b}\n" for a, b in contacts),
+            "scene.toml": f"gravity = [0, 0]\nmu = {mu}\nforce_unit = 1\n"}
+
+
 class ProgramTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -140,14 +140,22 @@ bool RationalSimplex::maximise(const std::vector<mpq_class>& costs) {
 }
 
 std::optional<mpq_class> RationalSimplex::extremum(int component, int sign) {
-  const auto contact = static_cast<std::size_t>(component / 2);
+  return extremum({{component, 1.0}}, sign);
+}
+
+std::optional<mpq_class> RationalSimplex::extremum(const std::vector<std::pair<int, double>>& terms,
+                                                   int sign) {
   std::vector<mpq_class> costs(columns_, 0);
-  if (component % 2 == 0) {
-    costs[2 * contact] = sign;
-    if (mu_[contact] > 0) costs[2 * contact + 1] = sign;
-  } else {
-    costs[2 * contact] = sign * mu_[contact];
-    costs[2 * contact + 1] = -sign * mu_[contact];
+  for (const auto& [component, coefficient] : terms) {
+    const auto contact = static_cast<std::size_t>(component / 2);
+    const mpq_class part = sign * mpq_class(coefficient);
+    if (component % 2 == 0) {
+      costs[2 * contact] += part;
+      if (mu_[contact] > 0) costs[2 * contact + 1] += part;
+    } else {
+      costs[2 * contact] += part * mu_[contact];
+      costs[2 * contact + 1] -= part * mu_[contact];
+    }
   }
   if (!maximise(costs)) return {};
   return mpq_class(-sign * reduced_.back());

@@ -3,6 +3,7 @@
 #include <gmpxx.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "libindet/packing/packing.h"
@@ -28,6 +29,8 @@ class RationalSimplex {
   /// Minimum (sign −1) or maximum (+1) of R_α (component 2α) or T_α (2α + 1); nothing: unbounded.
   /// Precondition: !is_empty().
   std::optional<mpq_class> extremum(int component, int sign);
+  /// Of Σ coefficient · component, the coefficients taken as they are.
+  std::optional<mpq_class> extremum(const std::vector<std::pair<int, double>>& terms, int sign);
 
  private:
   void pivot(std::size_t row, std::size_t column);

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "libindet/range/analyze.h"
+#include "libindet/range/reactions.h"
 #include "libindet/verify/verify.h"
 #include "tests/support/body_variants.h"
 #include "tests/support/extremes.h"
@@ -20,7 +23,7 @@ TEST(ExactCheck, ProvesAllObjectivesOfAPile) {
   ASSERT_NE(ranges.status, PolytopeStatus::kEmpty);
   const ExactCheck check = check_exactly(packing, ranges);
   EXPECT_TRUE(check.passed()) << (check.messages.empty() ? "" : check.messages.front());
-  EXPECT_EQ(check.proven + check.repaired, 4 * packing.contact_count());
+  EXPECT_EQ(check.proven + check.repaired, 4 * packing.contact_count() + 2 * ranges.reactions.count());
   EXPECT_EQ(check.rank, ranges.rank);
   EXPECT_LT(check.worst_error, 1e-10);
   ExactCheckOptions two;
@@ -42,7 +45,7 @@ TEST(ExactCheck, ProvesAllObjectivesWithLeversAndFixedDisks) {
       continue;
     }
     ++standing;
-    EXPECT_EQ(check.proven + check.repaired, 4 * packing.contact_count());
+    EXPECT_EQ(check.proven + check.repaired, 4 * packing.contact_count() + 2 * ranges.reactions.count());
     EXPECT_LT(check.worst_error, 1e-10);
   }
   EXPECT_GT(standing, 2);
@@ -63,10 +66,67 @@ TEST(ExactCheck, RepairsAWrongStateAndReportsAWrongBound) {
   EXPECT_NEAR(check.worst_error, zoo::wedge_ranges(0.5, 0.3).delta_R, 1e-12);
 }
 
+TEST(ExactCheck, ProvesReactionsAndReportsWrongOnes) {
+  const Packing packing = zoo::disks_between_plates(3, 2.5, 0.3);
+  const ForceRanges ranges = analyze(packing);
+  ExactCheck check = check_exactly(packing, ranges);
+  EXPECT_TRUE(check.passed());
+  EXPECT_EQ(check.reactions.value(0, 0), 5.5) << "ΣR of the floor: three weights and the load, exactly";
+  EXPECT_EQ(check.reactions.lower(0, 1), 5.5);
+  EXPECT_EQ(check.reactions.upper(2, 1), 2.5);
+  ForceRanges wrong = ranges;
+  wrong.reactions.value(0, 1) = wrong.reactions.lower(0, 1) = wrong.reactions.upper(0, 1) = 5.75;
+  check = check_exactly(packing, wrong);
+  EXPECT_EQ(check.contradictions, 1);
+  EXPECT_EQ(check.worst_error, 0.25);
+  wrong = ranges;
+  wrong.reactions.value(1, 1) = wrong.reactions.upper(1, 1) = INFINITY;
+  EXPECT_EQ(check_exactly(packing, wrong).refuted, 1);
+  wrong = ranges;
+  wrong.reactions.component[1] = 0;
+  EXPECT_EQ(check_exactly(packing, wrong).contradictions, 1);
+}
+
+/// The sums of piles on walls and fixed disks, against a simplex method in rational numbers.
+TEST(ExactCheck, ReactionsAreThoseOfAnotherExactMethod) {
+  int standing = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const Packing packing =
+        zoo::with_levers(zoo::with_fixed_disks(zoo::random_pile(seed, 4, 0.6), seed), seed);
+    const ForceRanges ranges = analyze(packing);
+    if (ranges.status == PolytopeStatus::kEmpty) continue;
+    ++standing;
+    const ExactCheck check = check_exactly(packing, ranges);
+    oracle::RationalSimplex exact(packing);
+    const std::vector<ReactionSum> sums = reaction_sums(packing);
+    ASSERT_EQ(std::ssize(sums), ranges.reactions.count());
+    for (Eigen::Index k = 0; k < ranges.reactions.count(); ++k) {
+      std::vector<std::pair<int, double>> terms;
+      const Eigen::VectorXd& coefficients = sums[static_cast<std::size_t>(k)].coefficients;
+      for (int i = 0; i < coefficients.size(); ++i) terms.emplace_back(i, coefficients[i]);
+      for (const int end : {0, 1}) {
+        const auto value = exact.extremum(terms, end == 0 ? -1 : 1);
+        if (!value) {
+          EXPECT_TRUE(std::isinf(check.reactions.value(k, end)));
+          continue;
+        }
+        EXPECT_LE(mpq_class(check.reactions.lower(k, end)), *value);
+        EXPECT_GE(mpq_class(check.reactions.upper(k, end)), *value);
+        EXPECT_LE(check.reactions.upper(k, end), std::nextafter(check.reactions.lower(k, end), INFINITY));
+        const double lower = ranges.reactions.lower(k, end);
+        const double upper = ranges.reactions.upper(k, end);
+        EXPECT_TRUE(lower == -INFINITY || mpq_class(lower) <= *value);
+        EXPECT_TRUE(upper == INFINITY || mpq_class(upper) >= *value);
+      }
+    }
+  }
+  EXPECT_GT(standing, 2);
+}
+
 TEST(ExactCheck, TellsUnboundedFromFinite) {
   const Packing packing = zoo::pinched_disk(0.4);
   ForceRanges ranges = analyze(packing);
-  EXPECT_EQ(check_exactly(packing, ranges).proven, 8);
+  EXPECT_EQ(check_exactly(packing, ranges).proven, 8 + 8) << "ΣR and ΣT of two walls";
   ranges.value(0, kMinR) = -INFINITY;
   EXPECT_EQ(check_exactly(packing, ranges).refuted, 1);
   ranges = analyze(packing);
@@ -133,6 +193,9 @@ TEST(AdoptExact, StoresTheExactValuesRoundedOnce) {
         EXPECT_GE(ranges.upper(i, column), stored);
       }
     }
+    const Reactions& reactions = ranges.reactions;
+    EXPECT_EQ(reactions.certified(), 2 * reactions.count());
+    EXPECT_TRUE((reactions.lower <= reactions.value && reactions.value <= reactions.upper).all());
     const Verification again = verify_ranges(scene.packing, ranges);
     EXPECT_TRUE(again.passed()) << (again.messages.empty() ? "" : again.messages.front());
     ++scenes;

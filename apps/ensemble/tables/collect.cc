@@ -8,6 +8,7 @@
 #include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/tables/contact_table.h"
 #include "apps/ensemble/tables/protocol_distances.h"
+#include "apps/ensemble/tables/reaction_table.h"
 #include "apps/ensemble/tables/run_table.h"
 #include "apps/ensemble/tables/uniform_tables.h"
 #include "libindet/base/error.h"
@@ -26,6 +27,7 @@ class Collector {
     const std::size_t run = add_run(member, file, packing, tables_);
     const std::size_t first_contact = tables_.contacts.rows();
     add_contacts(file, packing, run, tables_);
+    add_reactions(file, packing, run, tables_.reactions);
     add_uniform_sampling(file, tables_, run, first_contact);
     distances_.add(member, packing, run, tables_.runs);
   }

@@ -48,6 +48,7 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   file.make_group("/table");
   contents.tables.runs.write(file, "/table/runs");
   contents.tables.contacts.write(file, "/table/contacts");
+  contents.tables.reactions.write(file, "/table/reactions");
   contents.tables.extremal.write(file, "/table/extremal");
   contents.tables.sampled.write(file, "/table/sampled");
   file.make_group("/figures");
@@ -78,6 +79,8 @@ EnsembleContents read_ensemble(const Hdf5File& file) {
   contents.missing = file.read_strings("/ensemble/missing", file.shape("/ensemble/missing", 1)[0]);
   contents.tables.runs.read(file, "/table/runs");
   contents.tables.contacts.read(file, "/table/contacts");
+  // Earlier versions have none.
+  if (file.has("/table/reactions")) contents.tables.reactions.read(file, "/table/reactions");
   contents.tables.extremal.read(file, "/table/extremal");
   contents.tables.sampled.read(file, "/table/sampled");
   contents.tables.timings.read(file, "/provenance/members");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/ensemble/tables/contact_table.h"
+#include "apps/ensemble/tables/reaction_table.h"
 #include "apps/ensemble/tables/run_table.h"
 #include "apps/ensemble/tables/uniform_tables.h"
 #include "libindet/base/error.h"
@@ -12,6 +13,7 @@ namespace indet {
 EnsembleTables::EnsembleTables()
     : runs(run_columns()),
       contacts(contact_columns()),
+      reactions(reaction_columns()),
       extremal(extremal_columns()),
       sampled(sampled_columns()),
       timings(timing_columns()) {}

@@ -1,0 +1,165 @@
+#include "libindet/verify/exact_reactions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "libindet/base/constants.h"
+#include "libindet/exact/optimum.h"
+#include "libindet/verify/rebuilt_sums.h"
+
+namespace indet {
+namespace {
+
+using exact::ContactBasis;
+using exact::Goal;
+using exact::Optimum;
+using exact::Verdict;
+
+bool holds(double lower, double upper, const mpq_class& value) {
+  const bool above = lower == -kInfinity || (std::isfinite(lower) && mpq_class(lower) <= value);
+  const bool below = upper == kInfinity || (std::isfinite(upper) && value <= mpq_class(upper));
+  return above && below;
+}
+
+class ReactionProver {
+ public:
+  ReactionProver(const Packing& packing, const ForceRanges& ranges, const exact::ContactProblem& problem,
+                 int pivot_limit, const std::function<bool()>& has_solution)
+      : packing_(packing),
+        ranges_(ranges),
+        r_(ranges.reactions),
+        problem_(problem),
+        pivot_limit_(pivot_limit),
+        has_solution_(has_solution) {
+    const Eigen::Index count = r_.count();
+    result_.proof.setConstant(count, 2, Proof::kNotAsked);
+    for (auto* table : {&result_.value, &result_.lower, &result_.upper}) table->setConstant(count, 2, kNaN);
+    result_.vertex.setConstant(count, 2, -1);
+    result_.states.resize(0, 2 * packing.contact_count());
+  }
+
+  ExactReactions run() {
+    if (r_.count() == 0) return std::move(result_);
+    const std::vector<RebuiltSum> sums = rebuilt_sums(packing_);
+    bool same = std::ssize(sums) == r_.count();
+    for (Eigen::Index k = 0; same && k < r_.count(); ++k) {
+      const RebuiltSum& sum = sums[static_cast<std::size_t>(k)];
+      same = sum.body.code() == r_.body[k] && sum.component == r_.component[k];
+    }
+    if (!same) {
+      ++result_.contradictions;
+      result_.add_message("reactions: the stored rows are not those of the packing");
+      return std::move(result_);
+    }
+    for (Eigen::Index k = 0; k < r_.count(); ++k) {
+      for (const int end : {0, 1}) {
+        const Goal goal = goal_of(sums[static_cast<std::size_t>(k)], end);
+        const auto start = start_of(k, end);
+        record(k, end, start ? exact::maximise(problem_, start, goal, pivot_limit_) : Optimum{});
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static Goal goal_of(const RebuiltSum& sum, int end) {
+    std::vector<std::pair<int, double>> terms;
+    for (int i = 0; i < sum.coefficients.size(); ++i) {
+      if (sum.coefficients[i] != 0) terms.emplace_back(i, sum.coefficients[i]);
+    }
+    return {std::move(terms), end == 0 ? -1 : 1};
+  }
+
+  bool starts_from_stored(Eigen::Index k, int end) const {
+    return r_.vertex(k, end) >= 0 || r_.ray(k, end) >= 0;
+  }
+
+  /// A basis of the edges that are strongest in the stored state or along the stored ray.
+  std::shared_ptr<const ContactBasis> start_of(Eigen::Index k, int end) const {
+    std::vector<double> preference(static_cast<std::size_t>(problem_.edges()), 0);
+    const bool is_state = r_.vertex(k, end) >= 0;
+    if (starts_from_stored(k, end)) {
+      const Eigen::VectorXd forces =
+          is_state ? r_.states.row(r_.vertex(k, end)).transpose() : r_.rays.row(r_.ray(k, end)).transpose();
+      preference = exact::edge_strengths(packing_, {forces.data(), static_cast<std::size_t>(forces.size())});
+    }
+    return ContactBasis::create(problem_, problem_.choose_basis(preference));
+  }
+
+  void record(Eigen::Index k, int end, const Optimum& optimum) {
+    const std::string place = fmt::format("reactions: {} of row {}", end == 0 ? "minimum" : "maximum", k);
+    const double stored = r_.value(k, end);
+    const bool as_stored = optimum.pivots == 0 && starts_from_stored(k, end);
+    const Proof agreed = as_stored ? Proof::kProven : Proof::kRepaired;
+    const bool certified =
+        r_.outcome(k, end) == Outcome::kOptimal || r_.outcome(k, end) == Outcome::kUnbounded;
+    Proof proof = Proof::kUndecided;
+    result_.pivots += optimum.pivots;
+    if (optimum.verdict == Verdict::kOptimal) {
+      proof = std::isinf(stored) ? Proof::kRefuted : agreed;
+      take(k, end, optimum);
+      if (std::isfinite(stored)) {
+        const double error = mpq_class(abs(mpq_class(stored) - optimum.value)).get_d() / ranges_.force_unit;
+        result_.worst_error = std::max(result_.worst_error, error);
+        if (certified) result_.worst_certified_error = std::max(result_.worst_certified_error, error);
+      }
+      if (certified && !holds(r_.lower(k, end), r_.upper(k, end), optimum.value)) {
+        ++result_.contradictions;
+        result_.add_message(
+            fmt::format("{}: the exact value {:.17g} is outside of the stored bounds [{:.17g}, {:.17g}]",
+                        place, result_.value(k, end), r_.lower(k, end), r_.upper(k, end)));
+      }
+    } else if (optimum.verdict == Verdict::kUnbounded && has_solution_()) {
+      const double infinite = end == 0 ? -kInfinity : kInfinity;
+      result_.value(k, end) = result_.lower(k, end) = result_.upper(k, end) = infinite;
+      proof = stored == infinite || std::isnan(stored) ? agreed : Proof::kRefuted;
+      if (proof == Proof::kRefuted && certified) ++result_.contradictions;
+    } else if (optimum.verdict == Verdict::kEmpty || optimum.verdict == Verdict::kInconsistent) {
+      proof = Proof::kRefuted;
+    }
+    if (proof == Proof::kRefuted || proof == Proof::kUndecided) {
+      result_.add_message(fmt::format("{}: {} is stored, {}", place, stored,
+                                      proof == Proof::kUndecided
+                                          ? fmt::format("not decided within {} exact pivots", optimum.pivots)
+                                          : fmt::format("exactly it is {}", result_.value(k, end))));
+    }
+    result_.proof(k, end) = proof;
+    result_.count(proof);
+  }
+
+  void take(Eigen::Index k, int end, const Optimum& optimum) {
+    const exact::Enclosure value = exact::enclose(optimum.value);
+    result_.value(k, end) = exact::nearest(optimum.value);
+    result_.lower(k, end) = value.lower;
+    result_.upper(k, end) = value.upper;
+    Eigen::VectorXd state(2 * packing_.contact_count());
+    for (int component = 0; component < state.size(); ++component)
+      state[component] = exact::nearest(optimum.basis->force(component));
+    result_.vertex(k, end) = static_cast<std::int32_t>(result_.states.rows());
+    result_.states.conservativeResize(result_.states.rows() + 1, Eigen::NoChange);
+    result_.states.bottomRows(1) = state.transpose();
+  }
+
+  const Packing& packing_;
+  const ForceRanges& ranges_;
+  const Reactions& r_;
+  const exact::ContactProblem& problem_;
+  int pivot_limit_;
+  const std::function<bool()>& has_solution_;
+  ExactReactions result_;
+};
+
+}  // namespace
+
+ExactReactions check_reactions_exactly(const Packing& packing, const ForceRanges& ranges,
+                                       const exact::ContactProblem& problem, int pivot_limit,
+                                       const std::function<bool()>& has_solution) {
+  return ReactionProver(packing, ranges, problem, pivot_limit, has_solution).run();
+}
+
+}  // namespace indet
