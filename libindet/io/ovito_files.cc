@@ -21,14 +21,6 @@ constexpr std::string_view kWriter = " writer=indet\n";
 constexpr std::string_view kBondColumns =
     "ITEM: ENTRIES index ParticleIdentifiers.A ParticleIdentifiers.B mu gap R_mg T_mg";
 
-/// Of the type of a particle: X a disk, F a fixed one, W the foot of a contact with a wall, I the image of a
-/// disk.
-char species_of(const VtkGrid& grid, std::size_t point, std::size_t disks) {
-  if (grid.body[point] < 0) return 'W';
-  if (point >= disks) return 'I';
-  return grid.fixed[point] != 0 ? 'F' : 'X';
-}
-
 /// The second line of the particles.
 std::string comment(const Packing& packing) {
   const auto& [a, b] = packing.cell;
@@ -50,6 +42,13 @@ std::string comment(const Packing& packing) {
                         2 * packing.max_radius());
   }
   return text + std::string(kWriter);
+}
+
+/// Of the type of a particle: X a disk, F a fixed one, W the foot of a contact with a wall, I an image.
+char species_of(const Packing& packing, const VtkGrid& grid, std::size_t point) {
+  if (grid.body[point] < 0) return 'W';
+  if (point >= packing.disks.size()) return 'I';
+  return grid.fixed[point] != 0 ? 'F' : 'X';
 }
 
 /// The ids of the points of a grid: disks, then feet and images.
@@ -86,8 +85,8 @@ void write_particles(const std::filesystem::path& path, const Packing& packing) 
   std::string text = fmt::format("{}\n{}", grid.point_count(), comment(packing));
   for (std::size_t i = 0; i < grid.point_count(); ++i) {
     const bool is_disk = i < packing.disks.size();
-    text += fmt::format("{} {} {} 0 {} {} {}\n", species_of(grid, i, packing.disks.size()),
-                        grid.points[3 * i], grid.points[3 * i + 1], ids[i],
+    text += fmt::format("{} {} {} 0 {} {} {}\n", species_of(packing, grid, i), grid.points[3 * i],
+                        grid.points[3 * i + 1], ids[i],
                         is_disk ? grid.radius[i] : kFootRadius * packing.max_radius(),
                         is_disk ? packing[DiskId(grid.body[i])].mass : 0);
   }
