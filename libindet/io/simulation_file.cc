@@ -75,8 +75,16 @@ std::vector<Contact> read_contact_columns(const Hdf5File& file, const std::strin
   };
   const auto lever_a = lever(group + "/lever_a");
   const auto lever_b = lever(group + "/lever_b");
+  const auto disks = static_cast<int>(file.shape("/particles/disks/id", 1)[0]);
+  const auto walls = static_cast<int>(file.shape("/walls/id", 1)[0]);
   std::vector<Contact> contacts;
   for (std::size_t i = 0; i < m; ++i) {
+    const Body body = Body::from_code(b[i]);
+    const bool exists = !body.is_cell() && (body.is_wall() ? body.wall_id().value() < walls : b[i] < disks);
+    if (a[i] < 0 || a[i] >= disks || !exists) {
+      throw Hdf5ReadError(fmt::format("{}: {}: row {} joins bodies {} and {}, which are not both there",
+                                      file.path().string(), group, i, a[i], b[i]));
+    }
     contacts.push_back({.a = DiskId(a[i]),
                         .b = Body::from_code(b[i]),
                         .normal = {normal[2 * i], normal[2 * i + 1]},

@@ -9,6 +9,8 @@ import pathlib
 import struct
 import sys
 
+import h5py
+
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import program  # noqa: E402
 
@@ -51,6 +53,17 @@ class Reading(program.ProgramTest):
                 openings = Openings(self.folder / file)
                 self.run_indet(*command)
                 self.assertEqual(openings.count(), 2)
+
+    def test_contacts_of_a_trajectory_join_bodies_that_are_there(self):
+        self.run_indet("simulate", "--protocol", "cd1", "--disks", "5", "--every", "1", "-o", "s.h5")
+        for name, body in (("body_b", -(2**31)), ("body_b", -9), ("body_b", 5), ("body_a", 5), ("body_a", -1)):
+            with h5py.File(self.folder / "s.h5", "r+") as file:
+                before = file[f"trajectory/contacts/{name}"][0]
+                file[f"trajectory/contacts/{name}"][0] = body
+            done = self.run_indet("trajectory", "s.h5", "-o", "s.svg", status=3)
+            self.assertRegex(done.stderr, f"/trajectory/contacts: row 0 joins bodies .*{body}.*not both there")
+            with h5py.File(self.folder / "s.h5", "r+") as file:
+                file[f"trajectory/contacts/{name}"][0] = before
 
     def test_the_tables_of_an_ensemble_too(self):
         self.run_indet("ensemble", "--seeds", "1", "--disks", "5", "--protocols", "cd1", "--samples", "0",

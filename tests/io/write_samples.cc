@@ -60,7 +60,6 @@ int main(int argc, char** argv) {
     rare.method = indet::Method::kPivotingPaper;
     rare.paper_options.neighbour = indet::NeighbourRule::kRandom;
     rare.motion.setConstant(3, 3, 0.5);
-    rare.cell_motion.setConstant(2, 2, 0.5);
     rare.wall_motion.setConstant(2, 2, 0.5);
     rare.cell_motion.setConstant(2, 2, 0.25);
     rare.bound_multipliers.setConstant(6, 0.125);
