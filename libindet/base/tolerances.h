@@ -46,8 +46,8 @@ inline constexpr double kPushingDistance = 0.1;
 /// A component of a vector up to this, relative to its length, is printed as 0.
 inline constexpr double kPrintedComponent = 1e-9;
 
-/// Where a force may vary by less than this to both sides, relative to the internal unit of force, the problem
-/// is solved in a unit next to the narrowest such interval.
+/// Where a force may vary by less than this to both sides, relative to the internal unit of force, the
+/// problem is solved in a unit next to the narrowest such interval.
 inline constexpr double kNarrowBounds = 1e-3;
 
 /// Half intervals of bounds of forces that agree to this, relative to them, are called one error.
