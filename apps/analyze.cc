@@ -167,7 +167,8 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
 
 void print_motion(const Packing& packing, const ForceRanges& ranges) {
   if (const auto contradiction = describe_contradiction(packing, ranges); !contradiction.empty()) {
-    fmt::print("No contact forces balance the load, keep to friction and to the bounds of forces.\n");
+    if (!ranges.doubtful)
+      fmt::print("No contact forces balance the load, keep to friction and to the bounds of forces.\n");
     for (const std::string& line : contradiction) fmt::print("{}.\n", line);
     return;
   }

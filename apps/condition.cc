@@ -18,6 +18,9 @@
 namespace indet::app {
 namespace {
 
+/// A share of a force is not taken for less than this (mg): that of a force that is 0 but for rounding.
+constexpr double kLeastError = 1e-9;
+
 struct Condition {
   bool tangential = false;
   double error = 0;
@@ -68,7 +71,8 @@ void apply(const std::string& text, const Condition& condition, Packing& packing
     const double force = condition.tangential ? contact.T : contact.R;
     if (std::isnan(force)) continue;
     ++known;
-    const double error = condition.error * (condition.is_share ? std::abs(force) : mg);
+    const double error = condition.is_share ? std::max(condition.error * std::abs(force), kLeastError * mg)
+                                            : condition.error * mg;
     double& lo = condition.tangential ? contact.T_lo : contact.R_lo;
     double& hi = condition.tangential ? contact.T_hi : contact.R_hi;
     const double below = force - error;
@@ -98,9 +102,11 @@ void add_condition_option(CLI::App& command, std::vector<std::string>& condition
       .add_option(
           "--condition", conditions,
           "Keep to known (simulated, measured) forces: R=known±ERROR or T=known±ERROR, ERROR in mg, or "
-          "in % of the force; @3,7,12-20 after it names the contacts (default: all whose force is "
+          "in % of the force (at least 1e-9 mg); @3,7,12-20 after it names the contacts (default: all whose "
+          "force is "
           "known). May be given several times; +- may stand for ±")
-      ->type_name("FORCE=known±ERROR[@LIST]");
+      ->type_name("FORCE=known±ERROR[@LIST]")
+      ->allow_extra_args(false);
 }
 
 void apply_conditions(const std::vector<std::string>& conditions, Packing& packing,
@@ -129,14 +135,18 @@ std::vector<std::string> describe_contradiction(const Packing& packing, const Fo
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i)
     names += fmt::format("{}{}", i > 0 ? "; " : "", bound_name(packing, bounds[order[i]], mg));
   if (order.size() > kShown) names += fmt::format("; and {} more", order.size() - kShown);
-  lines.push_back(fmt::format("{} of {} contradict each other, with balance and friction (mg): {}",
-                              order.size(), counted(static_cast<std::int64_t>(bounds.size()), "bound"),
-                              names));
-  const std::optional<double> least = least_relaxation(packing);
-  if (!least) {
-    lines.emplace_back("Without any bound the packing cannot stand either");
+  if (ranges.doubtful) {
+    lines.push_back(fmt::format(
+        "Whether these bounds contradict each other cannot be told from rounding (mg): {}", names));
     return lines;
   }
+  const std::optional<double> least = least_relaxation(packing);
+  if (!least) return lines;  // without any bound it cannot stand either
+  const std::string all = counted(static_cast<std::int64_t>(bounds.size()), "bound");
+  lines.push_back(order.size() == 1
+                      ? fmt::format("1 of {} contradicts balance and friction (mg): {}", all, names)
+                      : fmt::format("{} of {} contradict each other, with balance and friction (mg): {}",
+                                    order.size(), all, names));
   std::optional<double> common;  // the half interval, where all have the same
   for (const ForceBound& bound : bounds) {
     const double half = std::abs(bound.value - bound.other) / (2 * mg);

@@ -11,7 +11,7 @@ namespace indet::app {
 
 /// --condition R=known±ERROR[@LIST]: bounds around the known forces, known − ERROR ≤ R ≤ known + ERROR, of
 /// all contacts whose R (or T) is known, or of those in a list like 3,7,12-20. ERROR is in mg, or with % a
-/// share of the force itself. "+-" may be written for "±".
+/// share of the force itself, but at least 1e-9 mg. "+-" may be written for "±".
 void add_condition_option(CLI::App& command, std::vector<std::string>& conditions);
 
 /// Sets the bounds; those that the scene has already stay where they are narrower. Throws UsageError where a

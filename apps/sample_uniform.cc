@@ -176,6 +176,13 @@ int sample_uniformly(const Hdf5File& file, const std::string& output, const Pack
       const nlohmann::json json = {{"file", path}, {"method", "uniform"}, {"stopped_by", "empty"}};
       std::cout << json.dump(2) << '\n';
     }
+    if (packing.has_bounds()) {
+      context.warn(fmt::format(
+          "{}: no contact forces keep to balance, friction and the bounds of forces; indet analyze{} "
+          "tells which bounds contradict each other",
+          path, settings.conditioned ? " with the same --condition" : ""));
+      return f.polytope.doubtful ? kUncertain : kNoAdmissibleState;
+    }
     context.warn(fmt::format(
         "{0}: the packing cannot stand: no contact forces balance its load; indet analyze {0} tells "
         "which disks move",

@@ -258,10 +258,20 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
   warn_of_large_gaps(imported);
   int outside = 0;
   double worst = 0;
-  for (const ForceBound& bound : force_bounds(packing)) {
+  const std::vector<ForceBound> bounds = force_bounds(packing);
+  for (const ForceBound& bound : bounds) {
     const double beyond = -slack(bound, packing.simulated_forces().value());  // NaN where it is unknown
     outside += beyond > 0 ? 1 : 0;
     worst = std::fmax(worst, beyond);
+  }
+  constexpr double kFar = 1e5;  // mg
+  const auto far = std::count_if(bounds.begin(), bounds.end(), [&](const ForceBound& bound) {
+    return std::abs(bound.value) > kFar * packing.force_unit();
+  });
+  if (far > 0) {
+    imported.warnings.push_back(
+        fmt::format("{} beyond {:.0e} mg, which costs digits; leave the field empty where there is no limit",
+                    counted(far, "bound of a force is", "bounds of forces are"), kFar));
   }
   if (outside > 0) {
     imported.warnings.push_back(fmt::format("{} outside of {} bounds, the worst by {:.2e} mg",

@@ -48,8 +48,8 @@ std::string bound_name(const Packing& packing, const ForceBound& bound, double u
   const char* sign = bound.side == ForceBound::Side::kLower   ? "≥"
                      : bound.side == ForceBound::Side::kUpper ? "≤"
                                                               : "=";
-  return fmt::format("{} of {} {} {:.6g}", bound.tangential ? "T" : "R", contact_name(packing, bound.contact),
-                     sign, bound.value / unit);
+  return fmt::format("{} of contact {} ({}) {} {:.6g}", bound.tangential ? "T" : "R", bound.contact.value(),
+                     contact_name(packing, bound.contact), sign, bound.value / unit);
 }
 
 }  // namespace indet

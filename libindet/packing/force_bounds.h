@@ -43,7 +43,7 @@ std::vector<int> half_planes_of(const std::vector<ForceBound>& bounds, int conta
 /// −|F − value|.
 double slack(const ForceBound& bound, const Eigen::VectorXd& forces, double unit = 1);
 
-/// "R of 12–7 ≤ 3.2", with values over `unit`.
+/// "R of contact 5 (12–7) ≤ 3.2", with values over `unit`.
 std::string bound_name(const Packing& packing, const ForceBound& bound, double unit = 1);
 
 }  // namespace indet

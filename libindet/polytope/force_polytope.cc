@@ -163,6 +163,12 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
       ContactMode& mode = modes[static_cast<std::size_t>(edge.contact.value())];
       mode = close_edge(mode, edge.sign);
     }
+    if (closing.edges.empty() && !problem.bounds.empty()) {
+      throw InputError(
+          "rounding decides whether forces within these bounds balance: some are too narrow, or too far "
+          "away. Leave "
+          "bounds that set no limit empty, and set lo = hi where a force is known exactly");
+    }
     if (closing.edges.empty())
       throw LibraryError("rounding decides whether forces balance, and no decision could be found");
     closings.push_back(std::move(closing));

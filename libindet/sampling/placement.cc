@@ -89,10 +89,12 @@ Placement place_state(const Packing& packing, const ConvexBody& body, const Unif
   place.R_star_percentile = percentile(samples, &Values::R_star, own.R_star);
 
   place.percentile_R = Eigen::VectorXd::Constant(packing.contact_count(), kNaN);
+  const double constant =
+      tolerance::kConstantForce * packing.internal_force_unit() / units.internal_in_scene();
   int inside = 0;
   int counted = 0;
   for (int k = 0; k < body.frame.rows(); k += 2) {
-    if (!(sample.deviation.value()[k] > tolerance::kConstantForce)) continue;
+    if (!(sample.deviation.value()[k] > constant)) continue;
     Eigen::VectorXd values = component_of(body, sample, k).value();
     std::sort(values.begin(), values.end());
     const std::span<const double> sorted(values.data(), static_cast<std::size_t>(values.size()));

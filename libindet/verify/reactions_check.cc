@@ -36,7 +36,7 @@ class ReactionCheck {
     compare_.equal_count(r_.states.rows(), next_state_, "reactions: states");
     for (Eigen::Index q = 0; q < r_.rays.rows(); ++q) {
       const Eigen::VectorXd ray = r_.rays.row(q).transpose();
-      const double residual = std::max(problem_.imbalance_without_load(ray), problem_.violation(ray));
+      const double residual = std::max(problem_.imbalance_without_load(ray), problem_.ray_violation(ray));
       compare_.require(residual <= tolerance::kStoredRay, "reactions: ray {} is not one ({})", q, residual);
     }
     if (r_.uncertain() > 0)

@@ -128,6 +128,16 @@ double RebuiltProblem::violation(const Eigen::VectorXd& forces) const {
   return worst;
 }
 
+double RebuiltProblem::ray_violation(const Eigen::VectorXd& ray) const {
+  double worst = 0;
+  for (int h = 0; h < 2 * packing_.contact_count(); ++h) worst = std::max(worst, -slack(h, ray));
+  for (ForceBound bound : bounds_) {
+    bound.value = 0;
+    worst = std::max(worst, -indet::slack(bound, ray));
+  }
+  return worst;
+}
+
 RebuiltProblem::SlidingCount RebuiltProblem::count_sliding(const Eigen::VectorXd& forces) const {
   const double epsilon = tolerance::kSliding * internal_unit_;
   SlidingCount count;

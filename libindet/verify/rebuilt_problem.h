@@ -32,6 +32,8 @@ class RebuiltProblem {
   double violation(const Eigen::VectorXd& forces) const;
   /// Half-planes 2M, 2M + 1, … are the bounds of the scene (force_bounds.h) that are inequalities.
   int half_planes() const { return 2 * packing_.contact_count() + static_cast<int>(inequalities_.size()); }
+  /// The same along a direction of growth, in which bounds have the value 0.
+  double ray_violation(const Eigen::VectorXd& ray) const;
   double slack(int half_plane, const Eigen::VectorXd& forces) const;
   /// The inward normal of a half-plane within ker c: the slack along kernel() · z changes by its product
   /// with z.

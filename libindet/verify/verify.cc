@@ -136,8 +136,8 @@ class Verifier {
       const Eigen::VectorXd ray = ranges_.rays.row(q).transpose();
       compare_.require(problem_.imbalance_without_load(ray) <= tolerance::kStoredRay,
                        "ray {}: it is not in the null space ({})", q, problem_.imbalance_without_load(ray));
-      compare_.require(problem_.violation(ray) <= tolerance::kStoredRay,
-                       "ray {}: it violates the contact conditions ({})", q, problem_.violation(ray));
+      compare_.require(problem_.ray_violation(ray) <= tolerance::kStoredRay,
+                       "ray {}: it violates the contact conditions ({})", q, problem_.ray_violation(ray));
     }
   }
 

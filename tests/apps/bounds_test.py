@@ -135,6 +135,26 @@ class Bounds(program.ProgramTest):
         self.assertEqual((shown["status"], shown["certified"]), ("bounded", 8))
         np.testing.assert_allclose(self.ranges("r.h5")[:, :2], [[1, 7], [1, 7]], rtol=1e-12)
 
+    def test_rays_of_what_stays_unbounded(self):
+        # A disk between two walls that face each other, held by bounds that leave R free to grow.
+        for bounds in ({"R_lo": 7}, {"T_lo": -0.6, "T_hi": -0.2}, {"T_lo": -0.5, "T_hi": -0.5}):
+            scene = groove(bounds, mu=0.5)
+            scene["walls.csv"] = "id,px,py,nx,ny\n0,-1,0,1,0\n1,1,0,-1,0\n"
+            self.packing(scene)
+            self.assertEqual(self.analyze("p.h5")["status"], "unbounded")
+            self.assertTrue(np.isinf(self.ranges("r.h5")[:, 1]).all())
+            shutil.rmtree(self.folder / "p")
+
+    def test_bounds_that_rounding_hides(self):
+        for bounds in ({"R_lo": 0.57, "R_hi": 0.57000000000000006}, {"R_hi": 1e17}):
+            self.packing(groove(bounds))
+            done = self.run_indet("analyze", "p.h5", "-o", "r.h5", status=3)
+            self.assertIn("too narrow, or too far away", done.stderr)
+            self.assertNotIn("r.h5", self.files())
+            shutil.rmtree(self.folder / "p")
+        self.write("p", groove({"R_hi": 1e10}))
+        self.assertIn("beyond 1e+05 mg", self.run_indet("import", "--format", "csv", "p", "-o", "p.h5").stderr)
+
     def test_exact_accuracy_takes_them(self):
         self.packing(groove({"R_hi": 0.6}))
         shown = self.analyze("p.h5", "--accuracy", "exact")
