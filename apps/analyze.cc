@@ -16,6 +16,7 @@
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
 #include "apps/condition.h"
+#include "apps/contradiction.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
@@ -103,6 +104,25 @@ std::vector<MovingDisk> moving_disks(const ForceRanges& ranges) {
   return disks;
 }
 
+/// How the packing moves where no state is admissible.
+void add_motion(const Packing& packing, const ForceRanges& ranges, nlohmann::json& json) {
+  for (const MovingDisk& disk : moving_disks(ranges)) {
+    json["moving_disks"].push_back({{"index", disk.index},
+                                    {"id", packing[DiskId(disk.index)].id},
+                                    {"motion", {disk.motion.x(), disk.motion.y(), disk.motion.z()}}});
+  }
+  for (Eigen::Index w = 0; w < ranges.wall_motion.rows(); ++w) {
+    const auto motion = ranges.wall_motion.row(w);
+    if (motion.norm() <= tolerance::kMotionEntry) continue;
+    json["moving_walls"].push_back(
+        {{"index", w}, {"id", packing[WallId(w)].id}, {"motion", {motion[0], motion[1]}}});
+  }
+  if (ranges.cell_motion.rows() > 0) {
+    const auto& e = ranges.cell_motion;
+    json["cell_motion"] = {{e(0, 0), e(0, 1)}, {e(1, 0), e(1, 1)}};
+  }
+}
+
 nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
   const Statistics delta_R = statistics(ranges.delta_R);
   const Statistics delta_T = statistics(ranges.delta_T);
@@ -142,22 +162,11 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
   if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges);
   if (ranges.largest_norm >= 0)
     json["largest_norm"] = json_number(ranges.norm[ranges.largest_norm] / ranges.force_unit);
-  for (const MovingDisk& disk : moving_disks(ranges)) {
-    json["moving_disks"].push_back({{"index", disk.index},
-                                    {"id", packing[DiskId(disk.index)].id},
-                                    {"motion", {disk.motion.x(), disk.motion.y(), disk.motion.z()}}});
-  }
-  for (const std::string& line : describe_contradiction(packing, ranges))
-    json["contradiction"].push_back(line);
-  for (Eigen::Index w = 0; w < ranges.wall_motion.rows(); ++w) {
-    const auto motion = ranges.wall_motion.row(w);
-    if (motion.norm() <= tolerance::kMotionEntry) continue;
-    json["moving_walls"].push_back(
-        {{"index", w}, {"id", packing[WallId(w)].id}, {"motion", {motion[0], motion[1]}}});
-  }
-  if (ranges.cell_motion.rows() > 0) {
-    const auto& e = ranges.cell_motion;
-    json["cell_motion"] = {{e(0, 0), e(0, 1)}, {e(1, 0), e(1, 1)}};
+  const std::vector<std::string> contradiction = describe_contradiction(packing, ranges);
+  if (contradiction.empty()) {
+    add_motion(packing, ranges, json);
+  } else {
+    json["contradiction"] = contradiction;
   }
   if (ranges.status == PolytopeStatus::kUnbounded) {
     json["rays"] = ranges.rays.rows();
@@ -187,7 +196,7 @@ void print_motion(const Packing& packing, const ForceRanges& ranges) {
     const auto motion = ranges.wall_motion.row(w);
     if (motion.norm() <= tolerance::kMotionEntry) continue;
     fmt::print("  wall {:<6} {:+.3f} along its normal, {:+.3f} along its tangent\n",
-               describe_wall(packing[WallId(w)]), motion[0], motion[1]);
+               wall_name(packing[WallId(w)]), motion[0], motion[1]);
   }
   if (ranges.cell_motion.rows() > 0) {
     const auto& e = ranges.cell_motion;

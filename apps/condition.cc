@@ -5,21 +5,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/packing/force_bounds.h"
-#include "libindet/polytope/least_relaxation.h"
 
 namespace indet::app {
 namespace {
-
-/// A share of a force is not taken for less than this (mg): that of a force that is 0 but for rounding.
-constexpr double kLeastError = 1e-9;
 
 struct Condition {
   bool tangential = false;
@@ -71,8 +65,9 @@ void apply(const std::string& text, const Condition& condition, Packing& packing
     const double force = condition.tangential ? contact.T : contact.R;
     if (std::isnan(force)) continue;
     ++known;
-    const double error = condition.is_share ? std::max(condition.error * std::abs(force), kLeastError * mg)
-                                            : condition.error * mg;
+    const double error = condition.is_share
+                             ? std::max(condition.error * std::abs(force), tolerance::kLeastError * mg)
+                             : condition.error * mg;
     double& lo = condition.tangential ? contact.T_lo : contact.R_lo;
     double& hi = condition.tangential ? contact.T_hi : contact.R_hi;
     const double below = force - error;
@@ -103,8 +98,8 @@ void add_condition_option(CLI::App& command, std::vector<std::string>& condition
           "--condition", conditions,
           "Keep to known (simulated, measured) forces: R=known±ERROR or T=known±ERROR, ERROR in mg, or "
           "in % of the force (at least 1e-9 mg); @3,7,12-20 after it names the contacts (default: all whose "
-          "force is "
-          "known). May be given several times; +- may stand for ±")
+          "force "
+          "is known). May be given several times; +- may stand for ±")
       ->type_name("FORCE=known±ERROR[@LIST]")
       ->allow_extra_args(false);
 }
@@ -113,52 +108,6 @@ void apply_conditions(const std::vector<std::string>& conditions, Packing& packi
                       const std::string& source) {
   for (const std::string& text : conditions)
     apply(text, parse(text, packing.contact_count()), packing, source);
-}
-
-std::vector<std::string> describe_contradiction(const Packing& packing, const ForceRanges& ranges) {
-  const std::vector<ForceBound> bounds = force_bounds(packing);
-  std::vector<std::string> lines;
-  if (bounds.empty() || ranges.status != PolytopeStatus::kEmpty) return lines;
-  const double mg = packing.force_unit();
-  const Eigen::VectorXd& multipliers = ranges.bound_multipliers;
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    if (std::abs(multipliers[static_cast<Eigen::Index>(k)]) > tolerance::kMotionEntry) order.push_back(k);
-  }
-  if (order.empty()) return lines;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(multipliers[static_cast<Eigen::Index>(a)]) >
-           std::abs(multipliers[static_cast<Eigen::Index>(b)]);
-  });
-  constexpr std::size_t kShown = 10;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i)
-    names += fmt::format("{}{}", i > 0 ? "; " : "", bound_name(packing, bounds[order[i]], mg));
-  if (order.size() > kShown) names += fmt::format("; and {} more", order.size() - kShown);
-  if (ranges.doubtful) {
-    lines.push_back(fmt::format(
-        "Whether these bounds contradict each other cannot be told from rounding (mg): {}", names));
-    return lines;
-  }
-  const std::optional<double> least = least_relaxation(packing);
-  if (!least) return lines;  // without any bound it cannot stand either
-  const std::string all = counted(static_cast<std::int64_t>(bounds.size()), "bound");
-  lines.push_back(order.size() == 1
-                      ? fmt::format("1 of {} contradicts balance and friction (mg): {}", all, names)
-                      : fmt::format("{} of {} contradict each other, with balance and friction (mg): {}",
-                                    order.size(), all, names));
-  std::optional<double> common;  // the half interval, where all have the same
-  for (const ForceBound& bound : bounds) {
-    const double half = std::abs(bound.value - bound.other) / (2 * mg);
-    if (!common) common = half;
-    if (!(std::abs(half - *common) <= tolerance::kSameError * *common)) common = std::nan("");
-  }
-  lines.push_back(
-      fmt::format("They are compatible if each gives way by {:.3g} mg{}", *least,
-                  std::isfinite(*common)
-                      ? fmt::format(": the least error is {:.3g} mg, not {:.3g}", *common + *least, *common)
-                      : ""));
-  return lines;
 }
 
 }  // namespace indet::app

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "libindet/packing/packing.h"
-#include "libindet/range/force_ranges.h"
 
 namespace indet::app {
 
@@ -19,9 +18,5 @@ void add_condition_option(CLI::App& command, std::vector<std::string>& condition
 /// between it and the scene's own bounds.
 void apply_conditions(const std::vector<std::string>& conditions, Packing& packing,
                       const std::string& source);
-
-/// What contradicts what, where the scene bounds forces and F is empty: a sentence each. Finds the least
-/// error at which the bounds are compatible, if the packing can stand without them.
-std::vector<std::string> describe_contradiction(const Packing& packing, const ForceRanges& ranges);
 
 }  // namespace indet::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -142,8 +143,9 @@ CLI::Validator number_that(bool (*accept)(double), const char* condition, const 
             double value = 0;
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
             const bool is_number = error == std::errc() && end == text.data() + text.size();
-            return is_number && accept(value) ? ""
-                                              : fmt::format("\"{}\" is not a number {}", text, condition);
+            return is_number && std::isfinite(value) && accept(value)
+                       ? ""
+                       : fmt::format("\"{}\" is not a number {}", text, condition);
           },
           name};
 }

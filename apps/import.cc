@@ -139,7 +139,7 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
       fmt::print("net force on a wall {:.2e} mg{}\n", report.wall_residual,
                  report.worst_wall.value() < 0
                      ? ""
-                     : fmt::format(" (wall {})", describe_wall(packing[report.worst_wall])));
+                     : fmt::format(" (wall {})", wall_name(packing[report.worst_wall])));
     }
     if (packing.stress.is_imposed() && report.forces_known && !stress.is_taken_from_forces)
       fmt::print("stress off by       {:.2e} mg on a side of the cell\n", report.stress_residual);
@@ -158,7 +158,7 @@ void print_report(const ImportedPacking& imported, const BalanceReport& report, 
   }
   if (packing.has_levers() && !imported.levers)
     fmt::print("levers              {}\n", describe_levers(packing));
-  if (packing.has_bounds()) fmt::print("bounds of forces    {}\n", force_bounds(packing).size());
+  if (!force_bounds(packing).empty()) fmt::print("bounds of forces    {}\n", force_bounds(packing).size());
   fmt::print("listed twice        {}\n", report.duplicates);
   if (imported.without_equations > 0)
     fmt::print("left out            {} between two bodies that do not move\n",

@@ -130,7 +130,9 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
       ->delimiter(',');
   command
       .add_option("--gravity", arguments.gravity,
-                  "Acceleration of gravity in the plane (default: that of the files, else 0,-1; not csv)")
+                  "Acceleration of gravity in the plane (default: that of the files, else 0,-1, or 0,0 in a "
+                  "box that is periodic in "
+                  "both directions; not csv)")
       ->delimiter(',')
       ->expected(2);
   command

@@ -17,6 +17,7 @@
 #include "apps/command.h"
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/file_contents.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
@@ -29,67 +30,6 @@
 
 namespace indet::app {
 namespace {
-
-/// Attributes of /simulation or /sampling, which describe how the forces came about.
-struct Account {
-  std::map<std::string, std::string> texts;
-  std::map<std::string, double> numbers;
-
-  /// A number as text, or "unknown" where a file does not have it.
-  std::string text_of(const std::string& name, const char* format = "{:.4g}") const {
-    const auto found = numbers.find(name);
-    return found == numbers.end() ? "unknown" : fmt::format(fmt::runtime(format), found->second);
-  }
-};
-
-struct TrajectoryExtent {
-  std::size_t frames = 0;
-  double start = 0, end = 0;  ///< Times, in the scene's unit.
-};
-
-/// Everything that is shown of a file.
-struct FileContents {
-  Packing packing;
-  BalanceReport balance;
-  std::optional<ForceRanges> ranges;
-  std::optional<Account> simulation, sampling;
-  std::optional<TrajectoryExtent> trajectory;
-  Digests digests;
-  std::map<std::string, std::string> provenance;
-};
-
-std::optional<Account> account_of(const Hdf5File& file, const std::string& group,
-                                  std::initializer_list<const char*> texts) {
-  if (!file.has(group)) return {};
-  Account account;
-  account.numbers = file.number_attributes(group);
-  for (const char* name : texts) account.texts[name] = file.string_attribute(group, name);
-  return account;
-}
-
-std::optional<TrajectoryExtent> trajectory_of(const Hdf5File& file) {
-  if (!file.has("/trajectory")) return {};
-  const std::vector<double> times = file.read_doubles("/trajectory/time", file.shape("/trajectory/time", 1));
-  if (times.empty()) return TrajectoryExtent{};
-  return TrajectoryExtent{times.size(), times.front(), times.back()};
-}
-
-FileContents read(const Hdf5File& file) {
-  FileContents contents;
-  contents.packing = read_packing(file);
-  ImportedPacking for_balance;
-  for_balance.packing = contents.packing;
-  contents.balance = report_balance(for_balance);
-  if (has_ranges(file)) contents.ranges = read_ranges(file);
-  contents.digests = compute_digests(file);
-  for (const char* name : {"version", "git", "compiler", "host", "created"}) {
-    contents.provenance[name] = file.string_attribute("/provenance", name);
-  }
-  contents.simulation = account_of(file, "/simulation", {"ending", "reason", "method", "polish"});
-  contents.sampling = account_of(file, "/sampling", {"method"});
-  contents.trajectory = trajectory_of(file);
-  return contents;
-}
 
 struct Extremes {
   double low = std::numeric_limits<double>::infinity();
@@ -203,7 +143,7 @@ void print_packing(const FileContents& contents) {
   }
   std::string walls = fmt::format("{}", packing.wall_count());
   for (const Wall& wall : packing.walls) {
-    walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ", describe_wall(wall));
+    walls += fmt::format("{}{}", &wall == packing.walls.data() ? ": " : ", ", wall_name(wall));
     if (wall.is_free_along_normal()) walls += fmt::format(" (load_n = {:.4g} mg)", wall.load_n / unit);
     if (wall.is_free_along_tangent()) walls += fmt::format(" (load_t = {:.4g} mg)", wall.load_t / unit);
   }
@@ -218,7 +158,7 @@ void print_packing(const FileContents& contents) {
   print_line("  contacts",
              fmt::format("{} ({})", packing.contact_count(), describe_expected_dimension(packing)));
   if (packing.has_levers()) print_line("  levers", describe_levers(packing));
-  if (packing.has_bounds())
+  if (!force_bounds(packing).empty())
     print_line("  bounds", fmt::format("{} of R and T", force_bounds(packing).size()));
   if (packing.cell.is_periodic()) print_line("  periodic cell", describe_cell(packing.cell));
   if (packing.cell.is_full()) print_line("  imposed stress", describe_stress(packing.stress));
@@ -301,7 +241,7 @@ void print_reactions(const Packing& packing, const ForceRanges& ranges) {
   const Reactions& r = ranges.reactions;
   for (Eigen::Index k = 0; k < std::min(kShown, r.count()); ++k) {
     const Body body = Body::from_code(r.body[k]);
-    const std::string name = body.is_wall() ? "wall " + describe_wall(packing[body.wall_id()])
+    const std::string name = body.is_wall() ? "wall " + wall_name(packing[body.wall_id()])
                                             : fmt::format("disk {}", packing[body.disk_id()].id);
     const bool is_torque = !body.is_wall() && r.component[k] == 2;
     const double unit = ranges.force_unit * (is_torque ? packing[body.disk_id()].radius : 1);
@@ -379,7 +319,7 @@ int run(const std::string& given, const Context& context) {
   const std::string path = std::filesystem::exists(in_folder, ignored) ? in_folder : given;
   const Hdf5File file = open_packing_or_ensemble(path);
   if (kind_of(file) == FileKind::kEnsemble) return inspect_ensemble(file, context);
-  const FileContents contents = read(file);
+  const FileContents contents = read_contents(file);
   if (context.json) {
     std::cout << to_json(path, contents).dump(2) << '\n';
     return kDone;

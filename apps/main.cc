@@ -33,7 +33,7 @@ constexpr const char* kFooter =
     "  1      internal error\n"
     "  2      wrong usage\n"
     "  3      bad input; nothing was written\n"
-    "  4      the packing cannot stand: no contact forces balance its load\n"
+    "  4      no contact forces balance the load within friction, and bounds where there are any\n"
     "  5      done, but some result is imprecise, failed or wrong\n"
     "  128+n  stopped by signal n\n";
 

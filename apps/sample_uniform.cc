@@ -14,6 +14,7 @@
 #include "libindet/equilibrium/contact_state.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/sampling_file.h"
+#include "libindet/packing/force_bounds.h"
 #include "libindet/range/analyze.h"
 #include "libindet/sampling/placement.h"
 #include "libindet/sampling/shape.h"
@@ -176,7 +177,7 @@ int sample_uniformly(const Hdf5File& file, const std::string& output, const Pack
       const nlohmann::json json = {{"file", path}, {"method", "uniform"}, {"stopped_by", "empty"}};
       std::cout << json.dump(2) << '\n';
     }
-    if (packing.has_bounds()) {
+    if (!force_bounds(packing).empty()) {
       context.warn(fmt::format(
           "{}: no contact forces keep to balance, friction and the bounds of forces; indet analyze{} "
           "tells which bounds contradict each other",

@@ -141,7 +141,7 @@ nlohmann::json to_json(const ExactCheck& check, double seconds) {
 
 void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seconds) {
   if (ranges.status == PolytopeStatus::kEmpty) {
-    fmt::print("exact arithmetic: {} that the packing cannot stand",
+    fmt::print("exact arithmetic: {} that no contact forces are admissible",
                check.proves_emptiness ? "proven" : "not proven");
   } else {
     fmt::print(

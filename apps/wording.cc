@@ -21,10 +21,6 @@ std::string describe_disks(const Packing& packing) {
   return fixed == 0 ? all : fmt::format("{} ({} fixed)", all, fixed);
 }
 
-std::string describe_wall(const Wall& wall) {
-  return wall.name.empty() ? fmt::format("{}", wall.id) : wall.name;
-}
-
 const char* reaction_component(Body body, int component) {
   constexpr std::array<const char*, 2> kOfWalls = {"R", "T"};
   constexpr std::array<const char*, 3> kOfDisks = {"x", "y", "torque"};
@@ -51,8 +47,7 @@ std::string describe_levers(const Packing& packing) {
 
 std::string describe_expected_dimension(const Packing& packing) {
   const int expected = packing.expected_dimension();
-  const int free =
-      packing.cell.is_full() && packing.fixed_disk_count() == 0 && packing.disk_count() > 0 ? 2 : 0;
+  const int free = packing.floats() ? 2 : 0;
   const int further = 2 * packing.contact_count() - 3 * packing.free_disk_count() + free - expected;
   return fmt::format("2M − 3N{}{} = {}", further > 0 ? fmt::format(" − {}", further) : "",
                      free > 0 ? " + 2" : "", expected);

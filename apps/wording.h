@@ -16,9 +16,6 @@ std::string describe_sliding(std::int64_t sliding, std::int64_t non_transmitting
 /// "12 disks", "12 disks (5 fixed)".
 std::string describe_disks(const Packing& packing);
 
-/// The name of a wall, or its id where it has none.
-std::string describe_wall(const Wall& wall);
-
 /// "R", "T" of a wall, "x", "y", "torque" of a fixed disk.
 const char* reaction_component(Body body, int component);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libsim/unsupported.h"
+
 namespace indet::sim {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libindet/base/error.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet::sim {
 
@@ -13,12 +14,11 @@ void refuse_unsupported(const Packing& packing, const char* what) {
   };
   if (packing.cell.is_periodic())
     refuse("takes no periodic scenes, and this one has a cell", "periodic cells");
-  if (packing.has_bounds())
+  if (!force_bounds(packing).empty())
     refuse("keeps to no bounds of forces (R_lo, R_hi, T_lo, T_hi), and this packing has some", "bounds");
   for (const Wall& wall : packing.walls) {
     if (!wall.is_loaded()) continue;
-    refuse(fmt::format("takes fixed walls only, but wall {} is loaded (load_n, load_t)",
-                       wall.name.empty() ? fmt::format("{}", wall.id) : wall.name),
+    refuse(fmt::format("takes fixed walls only, but wall {} is loaded (load_n, load_t)", wall_name(wall)),
            "loaded walls");
   }
 }

@@ -50,6 +50,12 @@ inline constexpr double kPrintedComponent = 1e-9;
 /// problem is solved in a unit next to the narrowest such interval.
 inline constexpr double kNarrowBounds = 1e-3;
 
+/// A share of a force is not taken for less than this (mg): that of a force that is 0 but for rounding.
+inline constexpr double kLeastError = 1e-9;
+
+/// Bounds of forces beyond this (mg) cost digits, of which an import warns.
+inline constexpr double kFarBound = 1e5;
+
 /// Half intervals of bounds of forces that agree to this, relative to them, are called one error.
 inline constexpr double kSameError = 1e-6;
 

@@ -24,8 +24,6 @@ double round_below(double value) {
   return power;
 }
 
-std::string unit_name(const Packing& packing) { return packing.named_force_unit > 0 ? "force units" : "mg"; }
-
 /// The scales of a picture of forces.
 struct ForceScale {
   double unit = 1;                      ///< The unit of force.

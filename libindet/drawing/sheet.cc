@@ -33,6 +33,8 @@ std::vector<Vector2> clip(const std::vector<Vector2>& polygon, const Wall& wall)
 
 }  // namespace
 
+std::string unit_name(const Packing& packing) { return packing.named_force_unit > 0 ? "force units" : "mg"; }
+
 Sheet::Sheet(const std::filesystem::path& path, const Packing& packing, const std::string& caption,
              const std::function<std::vector<LegendItem>(const Sheet&)>& legend, double bar_height)
     : packing_(packing) {
@@ -213,15 +215,15 @@ void Sheet::draw_loads(const std::vector<Vector2>& domain) {
       const Vector2 towards = wall.load_n < 0 ? outwards : Vector2(-outwards);
       if (wall.load_n != 0) arrow(wall.load_n < 0 ? Vector2(at + kArrow * outwards) : at, towards, 1.5);
       const Vector2 aside = is_upright ? Vector2(0, -kArrow / 2 - 2) : Vector2(kHead, kText / 3);
-      canvas_->text(behind + aside, fmt::format("{:.3g} mg", wall.load_n / unit), kText,
+      canvas_->text(behind + aside, fmt::format("{:.3g} {}", wall.load_n / unit, unit_name(packing_)), kText,
                     is_upright ? 0.5 : 0);
     }
     if (wall.is_free_along_tangent()) {
       const Vector2 towards = direction(wall.load_t < 0 ? Vector2(-wall.tangent()) : wall.tangent());
       if (wall.load_t != 0) arrow(at + kArrow / 2 * towards, towards, 0.75);
       const Vector2 aside = is_upright ? Vector2(0, kArrow / 2 + kText) : Vector2(-kHead, kText / 3);
-      canvas_->text(behind + aside, fmt::format("t {:.3g} mg", wall.load_t / unit), kText,
-                    is_upright ? 0.5 : 1);
+      canvas_->text(behind + aside, fmt::format("t {:.3g} {}", wall.load_t / unit, unit_name(packing_)),
+                    kText, is_upright ? 0.5 : 1);
     }
   }
 }

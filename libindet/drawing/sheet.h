@@ -13,6 +13,9 @@
 
 namespace indet {
 
+/// The unit of forces in a picture: "mg", or "force units" where the scene names one.
+std::string unit_name(const Packing& packing);
+
 /// The page of a packing: where its things are, and what stands below them. From the top: the picture, the
 /// legend, room for a colour bar, the caption.
 class Sheet {

@@ -12,10 +12,11 @@ namespace indet {
 /// of its own. Numbers are in the problem's unit.
 struct BoundRow {
   ForceBound bound;
-  double value = 0;            ///< of the row: lo, hi or hi − lo
-  bool closed = false;         ///< the slack is 0 in every state, and no unknown
-  bool follows_lower = false;  ///< s + s′ = hi − lo, after the row of the same force's lo
+  double value = 0;     ///< of the row: lo, hi or hi − lo
+  bool closed = false;  ///< the slack is 0 in every state, and no unknown
 
+  /// s + s′ = hi − lo, after the row of the same force's lo.
+  bool follows_lower() const { return bound.side == ForceBound::Side::kUpper && bound.is_two_sided(); }
   bool has_slack() const { return !closed && bound.side != ForceBound::Side::kEqual; }
 };
 

@@ -1,6 +1,7 @@
 #include "libindet/equilibrium/contact_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace indet {
@@ -55,21 +56,15 @@ Eigen::Matrix2d contact_stress(const Packing& packing, const SceneForces& forces
 }
 
 Eigen::Vector4d stress_residual(const Packing& packing, const SceneForces& forces) {
-  Eigen::Vector4d residual = Eigen::Vector4d::Zero();
-  if (!packing.stress.is_imposed()) return residual;
-  const double length = packing.cell_length();
-  const double unit = packing.force_unit();
+  if (!packing.stress.is_imposed()) return Eigen::Vector4d::Zero();
+  const Eigen::Matrix2d found = contact_stress(packing, forces);
+  const std::array<double, 4> components = {found(0, 0), found(1, 1), found(0, 1), found.trace() / 2};
   const auto imposed = packing.stress.components();
-  for (int k = 0; k < 4; ++k)
-    residual[k] = packing.cell.area() / length * (imposed[static_cast<std::size_t>(k)] / unit);
-  for (int i = 0; i < packing.contact_count(); ++i) {
-    const Contact& contact = packing[ContactId(i)];
-    const Vector2 force =
-        forces.value()[2 * i] / unit * contact.normal + forces.value()[2 * i + 1] / unit * contact.tangent();
-    const Vector2 branch = packing.branch(contact) / length;
-    for (int k = 0; k < 4; ++k) residual[k] -= stress_part(k, force, branch);
-  }
-  return residual.unaryExpr([](double value) { return std::isnan(value) ? 0 : value; });
+  const double size = packing.cell.area() / (packing.cell_length() * packing.force_unit());
+  Eigen::Vector4d residual;
+  for (std::size_t k = 0; k < 4; ++k)
+    residual[static_cast<Eigen::Index>(k)] = std::isnan(imposed[k]) ? 0 : size * (imposed[k] - components[k]);
+  return residual;
 }
 
 double largest_imbalance(const Packing& packing, const SceneForces& forces) {
@@ -82,11 +77,10 @@ double largest_imbalance(const Packing& packing, const SceneForces& forces) {
   return largest;
 }
 
-double worst_bound_violation(const Packing& packing, const SceneForces& forces) {
+double worst_bound_violation(const std::vector<ForceBound>& bounds, const SceneForces& forces) {
   double worst = 0;
-  for (const ForceBound& bound : force_bounds(packing))
-    worst = std::max(worst, -slack(bound, forces.value()));
-  return worst / packing.force_unit();
+  for (const ForceBound& bound : bounds) worst = std::max(worst, -slack(bound, forces.value()));
+  return worst;
 }
 
 CoulombCount count_coulomb(const Packing& packing, const SceneForces& forces, double epsilon) {

@@ -26,8 +26,9 @@ Eigen::Vector4d stress_residual(const Packing& packing, const SceneForces& force
 /// The largest of all three, by magnitude; 0 for a packing without bodies.
 double largest_imbalance(const Packing& packing, const SceneForces& forces);
 
-/// The largest amount by which forces break a bound that the scene sets (force_bounds.h), mg; 0 if none.
-double worst_bound_violation(const Packing& packing, const SceneForces& forces);
+/// The largest amount by which forces break one of the bounds (force_bounds.h), in the scene's unit; 0 if
+/// none.
+double worst_bound_violation(const std::vector<ForceBound>& bounds, const SceneForces& forces);
 
 /// How a contact state stands to the Coulomb conditions [16], with tolerance ε (in the internal unit of
 /// force, which is mg unless the scene names a unit that says little about it). Of an unknown force (NaN) no

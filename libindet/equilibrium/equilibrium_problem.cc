@@ -1,8 +1,9 @@
 #include "libindet/equilibrium/equilibrium_problem.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "libindet/equilibrium/row_numbering.h"
 
 namespace indet {
 namespace {
@@ -36,89 +37,6 @@ int edge_sign(ContactMode mode, int k) {
   if (mode == ContactMode::kSlideMinus) return -1;
   return 0;
 }
-
-/// Which equations the scene needs, numbered; −1 where an equation is left out.
-class RowNumbering {
- public:
-  RowNumbering(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units)
-      : numbers_(packing.disks.size(), {-1, -1, -1}), wall_numbers_(packing.walls.size(), {-1, -1}) {
-    cell_numbers_.fill(-1);
-    std::vector<std::array<bool, 3>> needed(packing.disks.size(), {false, false, false});
-    std::vector<std::array<bool, 2>> needed_of_wall(packing.walls.size(), {false, false});
-    const auto touch = [&](DiskId disk, bool turns) {
-      if (!packing.has_equations(disk)) return;
-      auto& components = needed[static_cast<std::size_t>(disk.value())];
-      components[0] = components[1] = true;
-      components[2] = components[2] || turns;
-    };
-    for (int i = 0; i < packing.contact_count(); ++i) {
-      const ContactMode mode = modes[static_cast<std::size_t>(i)];
-      const Contact& contact = packing[ContactId(i)];
-      if (mode == ContactMode::kOpen) continue;
-      const bool turns = mode != ContactMode::kFrictionless;
-      touch(contact.a, turns);
-      if (contact.b.is_wall()) {
-        auto& components = needed_of_wall[static_cast<std::size_t>(contact.b.wall_id().value())];
-        components[0] = true;
-        components[1] = components[1] || turns;
-      } else {
-        touch(contact.b.disk_id(), turns);
-      }
-    }
-    for (int i = 0; i < packing.disk_count(); ++i) {
-      const Vector3 wrench = packing.wrench(DiskId(i));
-      const Disk& disk = packing[DiskId(i)];
-      for (int k = 0; k < 3; ++k) {
-        const auto number = static_cast<std::size_t>(i);
-        const auto component = static_cast<std::size_t>(k);
-        if (!needed[number][component] && wrench[k] == 0) continue;
-        numbers_[number][component] = static_cast<int>(rows_.size());
-        const double weight = k < 2 ? std::abs(disk.mass * packing.gravity[k]) : 0;
-        rows_.push_back({Body::disk(DiskId(i)), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
-                         weight + std::abs(disk.load[k])});
-      }
-    }
-    for (int w = 0; w < packing.wall_count(); ++w) {
-      const Wall& wall = packing[WallId(w)];
-      for (int k = 0; k < 2; ++k) {
-        const double load = k == 0 ? wall.load_n : wall.load_t;
-        const auto number = static_cast<std::size_t>(w);
-        const auto component = static_cast<std::size_t>(k);
-        if (std::isnan(load) || (!needed_of_wall[number][component] && load == 0)) continue;
-        wall_numbers_[number][component] = static_cast<int>(rows_.size());
-        rows_.push_back({Body::wall(WallId(w)), k, units.internal_in_scene(), std::abs(load)});
-      }
-    }
-    if (packing.stress.is_imposed()) number_stress(packing, modes, units);
-  }
-
-  int operator()(DiskId disk, int component) const {
-    return numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];
-  }
-  int operator()(WallId wall, int component) const {
-    return wall_numbers_[static_cast<std::size_t>(wall.value())][static_cast<std::size_t>(component)];
-  }
-  int of_cell(int component) const { return cell_numbers_[static_cast<std::size_t>(component)]; }
-  const std::vector<EquilibriumRow>& rows() const { return rows_; }
-
- private:
-  void number_stress(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units) {
-    const bool carries =
-        std::any_of(modes.begin(), modes.end(), [](ContactMode mode) { return mode != ContactMode::kOpen; });
-    const auto stress = packing.stress.components();
-    for (std::size_t k = 0; k < stress.size(); ++k) {
-      if (std::isnan(stress[k]) || (!carries && stress[k] == 0)) continue;
-      cell_numbers_[k] = static_cast<int>(rows_.size());
-      rows_.push_back({Body::cell(), static_cast<int>(k), units.internal_in_scene() * packing.cell_length(),
-                       packing.cell.area() * std::abs(stress[k])});
-    }
-  }
-
-  std::vector<std::array<int, 3>> numbers_;
-  std::vector<std::array<int, 2>> wall_numbers_;
-  std::array<int, 4> cell_numbers_{};
-  std::vector<EquilibriumRow> rows_;
-};
 
 /// Adds the column of the force (R, T) of one contact: c_iα [15] times (R, T), torque rows divided by the
 /// radius.
@@ -210,9 +128,7 @@ std::vector<ContactMode> natural_modes(const Packing& packing) {
 
 int EquilibriumProblem::half_plane(const Edge& edge) const {
   if (!edge.is_slack()) return 2 * edge.contact.value() + (edge.sign < 0 ? 1 : 0);
-  const auto is_equal = [](const BoundRow& row) { return row.bound.side == ForceBound::Side::kEqual; };
-  const auto equal = std::count_if(bounds.begin(), bounds.begin() + edge.bound, is_equal);
-  return 2 * static_cast<int>(modes.size()) + edge.bound - static_cast<int>(equal);
+  return bounds[static_cast<std::size_t>(edge.bound)].bound.half_plane;
 }
 
 std::vector<int> EquilibriumProblem::first_unknowns() const {
@@ -279,6 +195,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
     const double size = std::abs(bound.value) + (bound.is_two_sided() ? std::abs(bound.other) : 0);
     problem.rows.push_back({.body = {}, .unit = unit, .load = size, .bound = static_cast<int>(k)});
   }
+  const double cell_length = packing.stress.is_imposed() ? packing.cell_length() : 1;
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];
     ContactEnds ends{contact.normal, contact.mu};
@@ -289,7 +206,7 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
     ends.arm_a = packing.lever_a(ContactId(i)) / packing[contact.a].radius;
     if (!contact.b.is_wall())
       ends.arm_b = packing.lever_b(ContactId(i)) / packing[contact.b.disk_id()].radius;
-    if (packing.stress.is_imposed()) ends.branch = packing.branch(contact) / packing.cell_length();
+    if (packing.stress.is_imposed()) ends.branch = packing.branch(contact) / cell_length;
     problem.contacts.push_back(ends);
   }
   describe_unknowns(problem);

@@ -61,7 +61,7 @@ struct ContactEnds {
 };
 
 /// The equilibrium problem of a packing: everything that later stages need of it, in the internal unit of
-/// force.
+/// force, or in a finer one where bounds of forces are narrow (problem_units, bound_rows.h).
 ///
 ///     find F with   A F = b,   F in K
 ///

@@ -182,21 +182,21 @@ Entries force_entries(const Packing& packing, const RowNumbers& number, const in
 }  // namespace
 
 std::vector<double> edge_growths(const Packing& packing, std::span<const double> forces) {
-  std::vector<double> strengths;
-  strengths.reserve(forces.size());
+  std::vector<double> growths;
+  growths.reserve(forces.size());
   for (std::size_t i = 0; i < packing.contacts.size(); ++i) {
     const double mu = packing.contacts[i].mu;
     const double R = forces[2 * i];
     const double T = forces[2 * i + 1];
-    strengths.push_back(mu > 0 ? (R + T / mu) / 2 : R);
-    strengths.push_back(mu > 0 ? (R - T / mu) / 2 : R);
+    growths.push_back(mu > 0 ? (R + T / mu) / 2 : R);
+    growths.push_back(mu > 0 ? (R - T / mu) / 2 : R);
   }
   for (const ForceBound& bound : force_bounds(packing)) {
     const double force = forces[static_cast<std::size_t>(bound.component())];
     if (bound.side != ForceBound::Side::kEqual)
-      strengths.push_back(bound.side == ForceBound::Side::kLower ? force : -force);
+      growths.push_back(bound.side == ForceBound::Side::kLower ? force : -force);
   }
-  return strengths;
+  return growths;
 }
 
 std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces) {

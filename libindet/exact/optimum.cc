@@ -64,6 +64,14 @@ Enclosure enclose(const mpq_class& value) {
   return {std::nextafter(truncated, -kInfinity), truncated};
 }
 
+bool contains(const Enclosure& bounds, const mpq_class& value) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto [lower, upper] = bounds;
+  const bool above = lower == -kInfinity || (std::isfinite(lower) && mpq_class(lower) <= value);
+  const bool below = upper == kInfinity || (std::isfinite(upper) && value <= mpq_class(upper));
+  return above && below;
+}
+
 double nearest(const mpq_class& value) {
   const Enclosure enclosure = enclose(value);
   if (std::isinf(enclosure.lower) || std::isinf(enclosure.upper))

@@ -14,6 +14,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/io/csv_table.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/import_format.h"
@@ -206,6 +207,40 @@ void fail_at_defect(const Packing& packing, PackingPart part, const Table& table
   table.fail(rows.empty() ? defect->index : rows[static_cast<std::size_t>(defect->index)], defect->reason);
 }
 
+/// Bounds that known forces break, that cost digits, or that mean 0.
+void warn_of_bounds(ImportedPacking& imported) {
+  const Packing& packing = imported.packing;
+  const Eigen::VectorXd known = packing.simulated_forces().value();
+  const double mg = packing.force_unit();
+  int outside = 0;
+  double worst = 0;
+  const std::vector<ForceBound> bounds = force_bounds(packing);
+  for (const ForceBound& bound : bounds) {
+    const double beyond = -slack(bound, known);  // NaN where it is unknown
+    outside += beyond > 0 ? 1 : 0;
+    worst = std::fmax(worst, beyond);
+  }
+  const auto far = std::count_if(bounds.begin(), bounds.end(), [&](const ForceBound& bound) {
+    return std::abs(bound.value) > tolerance::kFarBound * mg;
+  });
+  if (far > 0) {
+    imported.warnings.push_back(
+        fmt::format("{} beyond {:.0e} mg, which costs digits; leave the field empty where there is no limit",
+                    counted(far, "bound of a force is", "bounds of forces are"), tolerance::kFarBound));
+  }
+  if (outside > 0) {
+    imported.warnings.push_back(fmt::format("{} outside of {} bounds, the worst by {:.2e} mg",
+                                            counted(outside, "known force is", "known forces are"),
+                                            outside == 1 ? "its" : "their", worst / mg));
+  }
+  const auto pulls = std::count_if(packing.contacts.begin(), packing.contacts.end(),
+                                   [](const Contact& c) { return c.R_lo < 0 && c.R_lo > -kInfinity; });
+  if (pulls > 0) {
+    imported.warnings.push_back(
+        fmt::format("R_lo is negative at {}; contacts only push, so it means 0", counted(pulls, "contact")));
+  }
+}
+
 }  // namespace
 
 ImportedPacking read_csv_scene(const fs::path& folder) {
@@ -256,34 +291,7 @@ ImportedPacking read_csv_scene(const fs::path& folder) {
         "{}: {}", (folder / (packing.cell.is_full() ? "disks.csv" : "walls.csv")).string(), error.what()));
   }
   warn_of_large_gaps(imported);
-  int outside = 0;
-  double worst = 0;
-  const std::vector<ForceBound> bounds = force_bounds(packing);
-  for (const ForceBound& bound : bounds) {
-    const double beyond = -slack(bound, packing.simulated_forces().value());  // NaN where it is unknown
-    outside += beyond > 0 ? 1 : 0;
-    worst = std::fmax(worst, beyond);
-  }
-  constexpr double kFar = 1e5;  // mg
-  const auto far = std::count_if(bounds.begin(), bounds.end(), [&](const ForceBound& bound) {
-    return std::abs(bound.value) > kFar * packing.force_unit();
-  });
-  if (far > 0) {
-    imported.warnings.push_back(
-        fmt::format("{} beyond {:.0e} mg, which costs digits; leave the field empty where there is no limit",
-                    counted(far, "bound of a force is", "bounds of forces are"), kFar));
-  }
-  if (outside > 0) {
-    imported.warnings.push_back(fmt::format("{} outside of {} bounds, the worst by {:.2e} mg",
-                                            counted(outside, "known force is", "known forces are"),
-                                            outside == 1 ? "its" : "their", worst / packing.force_unit()));
-  }
-  const auto pulls = std::count_if(packing.contacts.begin(), packing.contacts.end(),
-                                   [](const Contact& c) { return c.R_lo < 0 && c.R_lo > -kInfinity; });
-  if (pulls > 0) {
-    imported.warnings.push_back(
-        fmt::format("R_lo is negative at {}; contacts only push, so it means 0", counted(pulls, "contact")));
-  }
+  warn_of_bounds(imported);
   return imported;
 }
 

@@ -45,7 +45,7 @@ std::string bound_field(double value) { return std::isinf(value) ? "" : field(va
 std::string rare_columns(const Packing& packing) {
   std::string text;
   if (packing.has_levers()) text += kLeverColumns;
-  if (packing.has_bounds()) text += kBoundColumns;
+  if (packing.has_bound_columns()) text += kBoundColumns;
   if (packing.cell.is_periodic()) text += kImageColumns;
   return text;
 }
@@ -53,7 +53,7 @@ std::string rare_columns(const Packing& packing) {
 std::string rare_fields(const Packing& packing, const Contact& c) {
   std::string text;
   if (packing.has_levers()) text += fmt::format(",{},{}", field(c.lever_a), field(c.lever_b));
-  if (packing.has_bounds()) {
+  if (packing.has_bound_columns()) {
     for (const double bound : {c.R_lo, c.R_hi, c.T_lo, c.T_hi}) text += "," + bound_field(bound);
   }
   if (packing.cell.is_periodic()) text += fmt::format(",{},{}", c.image[0], c.image[1]);

@@ -15,4 +15,9 @@ namespace indet {
 Vector2 in_plane(const Eigen::Vector3d& vector, const Plane& plane, const Place& place,
                  const std::string& what);
 
+/// The disk called `what` lies in the plane of the first one. `height`: along the plane's normal, above that
+/// of the first. Throws InputError, naming the place, if it is more than kSameWall of the radius.
+void require_same_plane(double height, double radius, const Plane& plane, const Place& place,
+                        const std::string& what);
+
 }  // namespace indet

@@ -16,7 +16,4 @@ namespace indet {
 std::vector<int> read_lammps_atoms(const DumpFrame& frame, const LammpsColumns& names, const Plane& plane,
                                    PackingBuilder& builder);
 
-/// The place of a row.
-inline Place place_of(const Table& table, int row) { return {table.source(), table.line(row)}; }
-
 }  // namespace indet

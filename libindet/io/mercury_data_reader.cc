@@ -61,8 +61,6 @@ class DataReader {
     bool complete = false;  ///< Seen from both sides.
   };
 
-  static Place place_of(const Table& table, int row) { return {table.source(), table.line(row)}; }
-
   /// Three columns of a contact.
   Vector2 vector(int row, const std::array<const char*, 3>& columns) const {
     Eigen::Vector3d vector;
@@ -101,12 +99,8 @@ class DataReader {
     if (spatial) {
       const double height = along("", plane_.normal);
       if (row == 0) height_ = height;
-      if (!(std::abs(height - height_) <= tolerance::kSameWall * std::abs(disk.radius))) {
-        table.fail(row,
-                   fmt::format("particle {} lies {:.3g} off the plane {} of the first one; only packings in "
-                               "a plane can be read (--plane xy or xz)",
-                               row, height - height_, plane_.name()));
-      }
+      require_same_plane(height - height_, disk.radius, plane_, place_of(table, row),
+                         fmt::format("particle {}", row));
     }
     const double info = table.number(row, "info");
     const bool is_species = info == std::floor(info) && info >= 0 && info <= std::numeric_limits<int>::max();

@@ -165,30 +165,22 @@ class MercuryReader {
     return found == friction_.end() ? kNaN : found->second;
   }
 
-  Vector2 components(const Eigen::Vector3d& vector) const {
-    return {vector[plane_.first], vector[plane_.second]};
-  }
-
   void read_particle() {
     const Keywords& line = *line_;
     const Eigen::Vector3d position = line.vector("position");
     Disk disk;
     disk.id = line.integer("id");
-    disk.position = components(position);
+    disk.position = plane_.components(position);
     disk.radius = line.number("radius");
     const double inverse = line.number("invMass");
     disk.fixed = inverse == 0;
     disk.mass = disk.fixed ? 0 : 1 / inverse;
     disk.inertia = (dimensions_ == 2 ? 0.5 : 0.4) * disk.mass * disk.radius * disk.radius;
-    disk.velocity = components(line.vector("velocity"));
+    disk.velocity = plane_.components(line.vector("velocity"));
     disk.angular_velocity = plane_.turned(line.vector("angularVelocity")[plane_.normal]);
     if (!height_) height_ = position[plane_.normal];
-    if (!(std::abs(position[plane_.normal] - *height_) <= tolerance::kSameWall * std::abs(disk.radius))) {
-      line.place().fail(
-          fmt::format("particle {} lies {:.3g} off the plane {} of the first one; only packings in a "
-                      "plane can be read (--plane xy or xz)",
-                      disk.id, position[plane_.normal] - *height_, plane_.name()));
-    }
+    require_same_plane(position[plane_.normal] - *height_, disk.radius, plane_, line.place(),
+                       fmt::format("particle {}", disk.id));
     builder_.add_disk(disk, line.integer("indSpecies"), line.place());
   }
 
@@ -207,8 +199,8 @@ class MercuryReader {
       line.place().fail(fmt::format("wall {} is not perpendicular to the plane {}", id, plane_.name()));
     }
     const Wall wall{.id = builder_.packing().wall_count(),
-                    .point = components(line.vector("position")),
-                    .normal = -components(outwards).stableNormalized(),
+                    .point = plane_.components(line.vector("position")),
+                    .normal = -plane_.components(outwards).stableNormalized(),
                     .name = std::to_string(id)};
     return wall_ids_.emplace(id, builder_.add_wall(wall, {}, line.place())).first->second;
   }

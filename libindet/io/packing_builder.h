@@ -22,6 +22,9 @@ struct Place {
   [[noreturn]] void fail(const std::string& reason) const;
 };
 
+/// The place of a row.
+inline Place place_of(const Table& table, int row) { return {table.source(), table.line(row)}; }
+
 /// Makes a packing of what a reader of another code's files finds: first all disks, then walls and contacts,
 /// in any order. All that does not depend on the format is here: ids become indices, disks are sorted by id
 /// and contacts by their bodies, normals and gaps follow from the positions, a contact that is listed twice

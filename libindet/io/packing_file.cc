@@ -186,10 +186,7 @@ void write_stress(Hdf5File& file, const Stress& stress) {
 Stress read_stress(const Hdf5File& file) {
   Stress stress;
   if (!file.has("/stress")) return stress;
-  stress.xx = file.double_attribute("/stress", "xx");
-  stress.yy = file.double_attribute("/stress", "yy");
-  stress.xy = file.double_attribute("/stress", "xy");
-  stress.pressure = file.double_attribute("/stress", "pressure");
+  for (const char* name : Stress::kNames) *stress.find(name) = file.double_attribute("/stress", name);
   return stress;
 }
 
@@ -293,8 +290,8 @@ std::vector<Contact> read_contacts(const Hdf5File& file) {
 
 SchemaVersion schema_of(const Packing& packing) {
   const bool fixed = std::any_of(packing.disks.begin(), packing.disks.end(), is_fixed);
-  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls() || packing.has_bounds() ||
-                      packing.cell.is_periodic();
+  const bool is_new = fixed || packing.has_levers() || packing.has_loaded_walls() ||
+                      packing.has_bound_columns() || packing.cell.is_periodic();
   return is_new ? SchemaVersion{2, 0} : SchemaVersion{};
 }
 
@@ -306,7 +303,7 @@ void write_packing_part(Hdf5File& file, const Packing& packing) {
   write_walls(file, packing.walls);
   write_contacts(file, packing.contacts);
   if (packing.has_levers()) write_levers(file, packing.contacts);
-  if (packing.has_bounds()) write_bounds(file, packing.contacts);
+  if (packing.has_bound_columns()) write_bounds(file, packing.contacts);
   if (packing.cell.is_periodic()) {
     file.write("/contacts/image", images(packing.contacts), {packing.contacts.size(), 2},
                {"1", "whole numbers i, j: the contact is with disk b at x_b + i a + j b"});

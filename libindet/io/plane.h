@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <string>
 
 namespace indet {
@@ -20,6 +20,8 @@ struct Plane {
   /// The angular velocity of the packing, from that along the axis that is left. (−0 would be another
   /// number.)
   double turned(double omega) const { return turn > 0 ? omega : 0 - omega; }
+  /// The components of a vector along both axes.
+  Eigen::Vector2d components(const Eigen::Vector3d& vector) const { return {vector[first], vector[second]}; }
   std::string name() const { return {letter(first), letter(second)}; }
 };
 

@@ -264,9 +264,8 @@ void check_reactions(const Hdf5File& file, const Reactions& reactions) {
   }
   for (Eigen::Index k = 0; k < count; ++k) {
     const Body body = Body::from_code(reactions.body[k]);
-    const bool exists =
-        !body.is_cell() && (body.is_wall() ? body.wall_id().value() < walls : body.disk_id().value() < disks);
-    if (!exists) fail(file, "/reactions/body", fmt::format("there is no body {}", body.code()));
+    if (!body.is_among(static_cast<int>(disks), static_cast<int>(walls)))
+      fail(file, "/reactions/body", fmt::format("there is no body {}", body.code()));
     const std::int32_t component = reactions.component[k];
     if (component < 0 || component >= (body.is_wall() ? 2 : 3))
       fail(file, "/reactions/component",

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -84,15 +83,13 @@ class SceneReader {
     scene_.names_stress = true;
     if (node.value<std::string>() == "none") return;
     Stress& stress = scene_.stress;
-    const std::array<double*, 4> components = {&stress.xx, &stress.yy, &stress.xy, &stress.pressure};
     for (const auto& [key, entry] : table_of("stress", node, "xx, yy, xy or pressure, or be \"none\"")) {
-      std::size_t k = 0;
-      while (k < components.size() && key.str() != Stress::kNames[k]) ++k;
-      if (k == components.size()) {
+      double* const component = stress.find(key.str());
+      if (component == nullptr) {
         fail(entry, fmt::format("{} of the stress is unknown; it has xx, yy, xy, or pressure{}", key.str(),
                                 key.str() == "yx" ? " (yx follows from the torques)" : ""));
       }
-      *components[k] = number(std::string(key.str()), entry);
+      *component = number(std::string(key.str()), entry);
     }
     if (!stress.is_imposed()) fail(node, "the stress needs a component: xx, yy, xy or pressure");
   }

@@ -80,8 +80,7 @@ std::vector<Contact> read_contact_columns(const Hdf5File& file, const std::strin
   std::vector<Contact> contacts;
   for (std::size_t i = 0; i < m; ++i) {
     const Body body = Body::from_code(b[i]);
-    const bool exists = !body.is_cell() && (body.is_wall() ? body.wall_id().value() < walls : b[i] < disks);
-    if (a[i] < 0 || a[i] >= disks || !exists) {
+    if (a[i] < 0 || a[i] >= disks || !body.is_among(disks, walls)) {
       throw Hdf5ReadError(fmt::format("{}: {}: row {} joins bodies {} and {}, which are not both there",
                                       file.path().string(), group, i, a[i], b[i]));
     }

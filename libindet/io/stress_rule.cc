@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "libindet/base/error.h"
@@ -16,22 +15,19 @@ StressRule StressRule::parse(const std::vector<std::string>& items) {
   StressRule rule;
   rule.is_given = !items.empty();
   if (items.size() == 1 && items.front() == "none") return rule;
-  const std::array<double*, 4> components = {&rule.stress.xx, &rule.stress.yy, &rule.stress.xy,
-                                             &rule.stress.pressure};
   for (const std::string& item : items) {
     const std::size_t equals = item.find('=');
-    std::size_t k = 0;
-    while (k < components.size() && item.substr(0, equals) != Stress::kNames[k]) ++k;
+    const std::string name = item.substr(0, equals);
+    double* const component = rule.stress.find(name);
     double value = 0;
-    if (equals == std::string::npos || k == components.size() ||
+    if (equals == std::string::npos || component == nullptr ||
         !parse_number(std::string_view(item).substr(equals + 1), &value) || !std::isfinite(value)) {
       throw InputError(fmt::format("\"{}\" is not xx=, yy=, xy= or pressure= with a number, nor none", item));
     }
-    if (!std::isnan(*components[k])) throw InputError(fmt::format("{} is given twice", Stress::kNames[k]));
-    *components[k] = value;
+    if (!std::isnan(*component)) throw InputError(fmt::format("{} is given twice", name));
+    *component = value;
   }
-  if (!std::isnan(rule.stress.pressure) && (!std::isnan(rule.stress.xx) || !std::isnan(rule.stress.yy)))
-    throw InputError("the pressure is (xx + yy)/2, so that it cannot be given beside xx or yy");
+  if (const char* reason = rule.stress.contradiction()) throw InputError(reason);
   return rule;
 }
 

@@ -31,14 +31,10 @@ class Reader {
     read_bodies();
     read_cell();
     for (const YadeInteraction& interaction : scene_.interactions) read_contact(interaction);
-    return builder_.build(scene_.gravity ? std::optional(components(*scene_.gravity)) : std::nullopt);
+    return builder_.build(scene_.gravity ? std::optional(plane_.components(*scene_.gravity)) : std::nullopt);
   }
 
  private:
-  Vector2 components(const Eigen::Vector3d& vector) const {
-    return {vector[plane_.first], vector[plane_.second]};
-  }
-
   /// YADE is periodic in all three directions or in none.
   void read_cell() {
     if (!scene_.cell) return;
@@ -76,21 +72,16 @@ class Reader {
       }
       Disk disk;
       disk.id = body.id;
-      disk.position = components(body.position);
+      disk.position = plane_.components(body.position);
       disk.radius = body.radius;
       disk.mass = body.mass;
       disk.inertia = body.inertia;
-      disk.velocity = components(body.velocity);
+      disk.velocity = plane_.components(body.velocity);
       disk.angular_velocity = plane_.turned(body.angular_velocity[plane_.normal]);
       disk.fixed = is_fixed(body);
       if (first == nullptr) first = &body;
       const double height = body.position[plane_.normal] - first->position[plane_.normal];
-      if (!(std::abs(height) <= tolerance::kSameWall * std::abs(body.radius))) {
-        body.place.fail(
-            fmt::format("body {} lies {:.3g} off the plane {} of body {}; only packings in a plane can "
-                        "be read (--plane xy or xz)",
-                        body.id, height, plane_.name(), first->id));
-      }
+      require_same_plane(height, body.radius, plane_, body.place, fmt::format("body {}", body.id));
       builder_.add_disk(disk, body.material, body.place);
     }
     builder_.close_disks();
@@ -109,7 +100,7 @@ class Reader {
     }
     Wall wall;
     wall.id = builder_.packing().wall_count();
-    wall.point = components(body.position);
+    wall.point = plane_.components(body.position);
     wall.normal = {side < 2 ? sign : 0, side < 2 ? 0 : sign};
     if (body.shape == "Box") wall.point += body.extents[axis] * wall.normal;
     const std::string id = std::to_string(body.id);

@@ -12,7 +12,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/packing/exact_sum.h"
+#include "libindet/packing/doubled_sum.h"
 
 namespace indet {
 namespace {
@@ -147,7 +147,7 @@ class Cancellation {
   }
 
   void require_exact_cancelling() {
-    std::map<int, std::array<ExactSum, 2>> sums;
+    std::map<int, std::array<DoubledSum, 2>> sums;
     for (int i = 0; i < packing_.disk_count(); ++i) {
       if (!packing_.has_equations(DiskId(i)) || free_of(Body::disk(DiskId(i))).count() < 2) continue;
       for (const std::size_t k : {0U, 1U})

@@ -2,15 +2,28 @@
 
 #include <algorithm>
 
-#include "libindet/packing/exact_sum.h"
+#include "libindet/packing/doubled_sum.h"
 
 namespace indet {
 
 double Cell::area() const {
-  ExactSum sum;
+  DoubledSum sum;
   sum.add_product(a->x(), b->y());
   sum.add_product(-a->y(), b->x());
   return std::abs(sum.value());
+}
+
+double* Stress::find(std::string_view name) {
+  const std::array<double*, 4> places = {&xx, &yy, &xy, &pressure};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (name == kNames[k]) return places[k];
+  }
+  return nullptr;
+}
+
+const char* Stress::contradiction() const {
+  if (std::isnan(pressure) || (std::isnan(xx) && std::isnan(yy))) return nullptr;
+  return "the pressure is (xx + yy)/2, so that it cannot be given beside xx or yy";
 }
 
 int Stress::imposed_count() const {

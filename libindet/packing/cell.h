@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "libindet/packing/vectors.h"
 
@@ -40,6 +41,10 @@ struct Stress {
   std::array<double, 4> components() const { return {xx, yy, xy, pressure}; }
   int imposed_count() const;
   bool is_imposed() const { return imposed_count() > 0; }
+  /// The component of that name; null if there is none.
+  double* find(std::string_view name);
+  /// Why these components cannot be imposed together; null if they can.
+  const char* contradiction() const;
   double largest() const;  ///< magnitude of those that are imposed; 0 if none is
 
   static constexpr std::array<const char*, 4> kNames = {"xx", "yy", "xy", "pressure"};

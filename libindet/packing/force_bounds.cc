@@ -22,20 +22,16 @@ std::vector<ForceBound> force_bounds(const Packing& packing) {
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];
     const double none = -std::numeric_limits<double>::infinity();
-    add(ContactId(i), false, contact.R_lo > 0 || contact.R_lo == contact.R_hi ? contact.R_lo : none,
-        contact.R_hi);
+    const double least = contact.R_hi == 0 ? 0 : none;
+    add(ContactId(i), false, contact.R_lo > 0 ? contact.R_lo : least, contact.R_hi);
     const bool is_zero = contact.mu == 0 && contact.T_lo <= 0 && contact.T_hi >= 0;
     if (!is_zero) add(ContactId(i), true, contact.T_lo, contact.T_hi);
   }
+  int next = 2 * packing.contact_count();
+  for (ForceBound& bound : bounds) {
+    if (bound.side != ForceBound::Side::kEqual) bound.half_plane = next++;
+  }
   return bounds;
-}
-
-std::vector<int> half_planes_of(const std::vector<ForceBound>& bounds, int contacts) {
-  std::vector<int> numbers;
-  int next = 2 * contacts;
-  for (const ForceBound& bound : bounds)
-    numbers.push_back(bound.side == ForceBound::Side::kEqual ? -1 : next++);
-  return numbers;
 }
 
 double slack(const ForceBound& bound, const Eigen::VectorXd& forces, double unit) {

@@ -4,12 +4,14 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "libindet/base/error.h"
-#include "libindet/packing/exact_sum.h"
+#include "libindet/packing/doubled_sum.h"
 
 namespace indet {
 
@@ -21,13 +23,14 @@ bool Packing::has_loaded_walls() const {
   return std::any_of(walls.begin(), walls.end(), [](const Wall& w) { return w.is_loaded(); });
 }
 
+bool Packing::floats() const { return cell.is_full() && fixed_disk_count() == 0 && disk_count() > 0; }
+
 int Packing::expected_dimension() const {
   int directions = 0;
   for (const Wall& wall : walls)
     directions += (wall.is_free_along_normal() ? 1 : 0) + (wall.is_free_along_tangent() ? 1 : 0);
   directions += stress.imposed_count();
-  const bool floats = cell.is_full() && fixed_disk_count() == 0 && disk_count() > 0;
-  return 2 * contact_count() - 3 * free_disk_count() - directions + (floats ? 2 : 0);
+  return 2 * contact_count() - 3 * free_disk_count() - directions + (floats() ? 2 : 0);
 }
 
 double Packing::force_unit() const {
@@ -95,7 +98,7 @@ bool Packing::has_levers() const {
                      [](const Contact& c) { return !std::isnan(c.lever_a) || !std::isnan(c.lever_b); });
 }
 
-bool Packing::has_bounds() const {
+bool Packing::has_bound_columns() const {
   return std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.is_bounded(); });
 }
 
@@ -123,10 +126,12 @@ bool Packing::has_simulated_forces() const {
                      [](const Contact& c) { return std::isfinite(c.R) && std::isfinite(c.T); });
 }
 
+std::string wall_name(const Wall& wall) { return wall.name.empty() ? std::to_string(wall.id) : wall.name; }
+
 std::string contact_name(const Packing& packing, ContactId contact) {
   const Contact& c = packing[contact];
   const std::string first = std::to_string(packing[c.a].id);
-  if (c.b.is_wall()) return first + "–wall " + packing[c.b.wall_id()].name;
+  if (c.b.is_wall()) return first + "–wall " + wall_name(packing[c.b.wall_id()]);
   const std::string second = std::to_string(packing[c.b.disk_id()].id);
   if (!c.has_image()) return first + "–" + second;
   return fmt::format("{}–{} ({}, {})", first, second, c.image[0], c.image[1]);
@@ -135,7 +140,7 @@ std::string contact_name(const Packing& packing, ContactId contact) {
 Vector2 centre_difference(const Packing& packing, DiskId a, DiskId b, const Image& image) {
   Vector2 difference;
   for (const int k : {0, 1}) {
-    ExactSum sum;
+    DoubledSum sum;
     sum.add(packing[a].position[k]);
     sum.add(-packing[b].position[k]);
     if (packing.cell.a) sum.add_product(-double{1} * image[0], (*packing.cell.a)[k]);
@@ -145,29 +150,64 @@ Vector2 centre_difference(const Packing& packing, DiskId a, DiskId b, const Imag
   return difference;
 }
 
+namespace {
+
+/// Two vectors that span the same lattice as those of a cell, the shortest that do (Lagrange's reduction),
+/// and what they are in vectors of the cell.
+struct ShortVectors {
+  std::array<Vector2, 2> vectors;
+  std::array<std::array<double, 2>, 2> of_cell = {{{1, 0}, {0, 1}}};
+};
+
+ShortVectors shorten(const Cell& cell) {
+  ShortVectors reduced{{*cell.a, *cell.b}};
+  auto& [u, v] = reduced.vectors;
+  auto& [of_u, of_v] = reduced.of_cell;
+  constexpr int kMostSteps = 200;  // each shortens a vector, but for rounding
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (v.squaredNorm() < u.squaredNorm()) {
+      std::swap(u, v);
+      std::swap(of_u, of_v);
+    }
+    const double times = std::round(u.dot(v) / u.squaredNorm());
+    if (times == 0 || !std::isfinite(times)) break;
+    v -= times * u;
+    for (const std::size_t k : {0U, 1U}) of_v[k] -= times * of_u[k];
+  }
+  return reduced;
+}
+
+}  // namespace
+
 Image nearest_image(const Packing& packing, DiskId a, DiskId b) {
-  const Vector2 difference = packing[a].position - packing[b].position;
   const auto& [first, second] = packing.cell;
-  Vector2 place(0, 0);  // of the difference, in vectors of the cell
+  if (!packing.cell.is_periodic()) return {0, 0};
+  const Vector2 difference = packing[a].position - packing[b].position;
+  Vector2 place(0, 0);  // of the difference, in the vectors `of_cell`
+  std::array<std::array<double, 2>, 2> of_cell = {{{1, 0}, {0, 1}}};
   if (packing.cell.is_full()) {
+    const ShortVectors reduced = shorten(packing.cell);
     Eigen::Matrix2d vectors;
-    vectors << *first, *second;
+    vectors << reduced.vectors[0], reduced.vectors[1];
     place = vectors.inverse() * difference;
-  } else if (packing.cell.is_periodic()) {
+    of_cell = reduced.of_cell;
+  } else {
     const Vector2& along = first ? *first : *second;
     place[first ? 0 : 1] = difference.dot(along) / along.squaredNorm();
   }
-  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > 1e9) return {0, 0};
-  const Image middle = {static_cast<std::int32_t>(std::lround(place.x())),
-                        static_cast<std::int32_t>(std::lround(place.y()))};
-  // A tilted cell may have a nearer image beside the rounded one.
-  const int reach_a = first ? 2 : 0;
-  const int reach_b = second ? 2 : 0;
+  // Of short vectors, the nearest image is the rounded one or next to it.
+  const int reach_a = first ? 1 : 0;
+  const int reach_b = second ? 1 : 0;
   Image nearest{0, 0};
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = -reach_a; i <= reach_a; ++i) {
     for (int j = -reach_b; j <= reach_b; ++j) {
-      const Image image = {middle[0] + i, middle[1] + j};
+      const double along_u = std::round(place.x()) + i;
+      const double along_v = std::round(place.y()) + j;
+      const Vector2 whole(along_u * of_cell[0][0] + along_v * of_cell[1][0],
+                          along_u * of_cell[0][1] + along_v * of_cell[1][1]);
+      if (!whole.allFinite() || whole.cwiseAbs().maxCoeff() > 1e9) continue;
+      const Image image = {static_cast<std::int32_t>(whole.x()), static_cast<std::int32_t>(whole.y())};
       if (a == b && image == Image{0, 0}) continue;
       const double distance = centre_difference(packing, a, b, image).stableNorm();
       if (distance >= smallest) continue;

@@ -74,6 +74,11 @@ class Body {
   WallId wall_id() const { return WallId(-code_ - 1); }  ///< Precondition: is_wall().
   std::int32_t code() const { return code_; }
   bool operator==(const Body&) const = default;
+  /// A disk or a wall of a scene with so many.
+  bool is_among(int disks, int walls) const {
+    if (is_cell()) return false;
+    return is_wall() ? wall_id().value() < walls : disk_id().value() < disks;
+  }
 
  private:
   explicit Body(std::int32_t code) : code_(code) {}
@@ -134,6 +139,8 @@ struct Packing {
   int free_disk_count() const;  ///< N: disks that are not fixed.
   int fixed_disk_count() const { return disk_count() - free_disk_count(); }
   bool has_loaded_walls() const;
+  bool floats()
+      const;  ///< A full cell that no fixed disk holds: two equations of force depend on the others.
   /// 2M − 3N, less the directions in which walls are loaded and the components of stress that are imposed:
   /// the least nullity of c. In a full cell that nothing fixed holds, 2 of the equations of force follow from
   /// the others, so it is 2 more.
@@ -149,8 +156,8 @@ struct Packing {
   /// The unit in which the equilibrium problem is solved and residuals are judged. force_unit(), unless that
   /// says little about the scene: where the largest load on a disk or wall, or stress times the largest
   /// diameter, is more than 1000 times larger or smaller, the power of two next to it. Tolerances then mean
-  /// the same whatever unit a scene names.
-  /// Throws like force_unit().
+  /// the same whatever unit a scene names. (Narrow bounds of forces make the problem's unit finer:
+  /// bound_rows.h.) Throws like force_unit().
   double internal_force_unit() const;
 
   /// Between both and the scene's own unit. Throws like force_unit().
@@ -178,8 +185,8 @@ struct Packing {
   double lever_b(ContactId contact) const { return lever_b((*this)[contact]); }
   double lever_a(const Contact& contact) const;  ///< Of one of this packing's disks.
   double lever_b(const Contact& contact) const;
-  bool has_levers() const;  ///< Some contact has a lever of its own.
-  bool has_bounds() const;  ///< Some contact has a force that the scene bounds.
+  bool has_levers() const;         ///< Some contact has a lever of its own.
+  bool has_bound_columns() const;  ///< Some contact has an R_lo, R_hi, T_lo or T_hi (force_bounds.h).
   /// Where the force of a contact acts: x_a − l_a n̂.
   Vector2 contact_point(const Contact& contact) const;
   /// l = x_a − (x_b + image · cell vectors) of a contact of two disks, to one rounding of |l|.
@@ -198,6 +205,9 @@ struct Packing {
   const Wall& operator[](WallId i) const { return walls[static_cast<std::size_t>(i.value())]; }
   const Contact& operator[](ContactId i) const { return contacts[static_cast<std::size_t>(i.value())]; }
 };
+
+/// A wall for a person: its name, or its id where it has none.
+std::string wall_name(const Wall& wall);
 
 /// The bodies of a contact for a person, by their names in the scene: "12–7", "12–wall floor", and with an
 /// image "12–7 (1, 0)".

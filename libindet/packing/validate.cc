@@ -116,9 +116,7 @@ Reason stress_defect(const Packing& packing) {
   if (!packing.cell.is_full()) return "a stress needs a cell that is periodic in both directions";
   if (packing.fixed_disk_count() > 0)
     return "a stress cannot be imposed on a cell with fixed disks, which bear a part of it";
-  if (!std::isnan(packing.stress.pressure) &&
-      (!std::isnan(packing.stress.xx) || !std::isnan(packing.stress.yy)))
-    return "the pressure is (xx + yy)/2, so that it cannot be given beside xx or yy";
+  if (const char* reason = packing.stress.contradiction()) return reason;
   return {};
 }
 

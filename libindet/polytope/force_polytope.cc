@@ -21,7 +21,7 @@ namespace {
 template <class Add>
 void add_multiplier(const EquilibriumProblem& problem, int bound, double value, Add add) {
   add(bound, value);
-  if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower) add(bound - 1, -value);
+  if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower()) add(bound - 1, -value);
 }
 
 /// Spreads a motion of the equations' rows over disks, walls and the cell; largest entry 1.
@@ -166,8 +166,8 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     if (closing.edges.empty() && !problem.bounds.empty()) {
       throw InputError(
           "rounding decides whether forces within these bounds balance: some are too narrow, or too far "
-          "away. Leave "
-          "bounds that set no limit empty, and set lo = hi where a force is known exactly");
+          "away. "
+          "Leave bounds that set no limit empty, and set lo = hi where a force is known exactly");
     }
     if (closing.edges.empty())
       throw LibraryError("rounding decides whether forces balance, and no decision could be found");

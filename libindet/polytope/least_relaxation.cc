@@ -25,9 +25,7 @@ Packing without_bounds(Packing packing) {
 /// The smallest half interval: t is found in units of it, so that the solver's tolerances do not hide it.
 double smallest_error(const std::vector<ForceBound>& bounds, double unit) {
   double smallest = 1;
-  for (const ForceBound& bound : bounds) {
-    if (bound.is_two_sided()) smallest = std::min(smallest, std::abs(bound.value - bound.other) / (2 * unit));
-  }
+  for (const ForceBound& bound : bounds) smallest = std::min(smallest, bound.half_interval() / unit);
   return smallest;
 }
 

@@ -17,6 +17,7 @@ struct StateResiduals {
 
 StateResiduals residuals_of(const Packing& packing, double unit, const Rows<double>& states) {
   const double least = packing.internal_force_unit() / unit;
+  const std::vector<ForceBound> bounds = force_bounds(packing);
   StateResiduals result;
   result.primal.resize(states.rows());
   for (Eigen::Index k = 0; k < states.rows(); ++k) {
@@ -25,7 +26,7 @@ StateResiduals residuals_of(const Packing& packing, double unit, const Rows<doub
     const double scale =
         std::max(least, forces.value().size() > 0 ? forces.value().lpNorm<Eigen::Infinity>() / unit : 0.0);
     result.primal[k] = std::max({balance, count_coulomb(packing, forces, 0).worst_violation,
-                                 worst_bound_violation(packing, forces)}) /
+                                 worst_bound_violation(bounds, forces) / unit}) /
                        scale;
     result.balance = std::max(result.balance, balance);
   }

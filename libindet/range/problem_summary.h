@@ -28,6 +28,7 @@ struct ProblemSummary {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> motion;
   /// [W, 2] the same of walls, along normal and tangent, where some wall is loaded.
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> wall_motion;
+  /// [2, 2] the rate of compression of the cell times its length, where stress is imposed.
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> cell_motion;
   /// When F is empty: multipliers of the scene's bounds of forces (ForcePolytope::bound_multipliers).
   Eigen::VectorXd bound_multipliers;

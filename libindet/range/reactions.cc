@@ -150,7 +150,7 @@ class ReactionFinder {
         std::max(packing_.internal_force_unit(), forces.value().lpNorm<Eigen::Infinity>()) / unit;
     const double primal =
         std::max({largest_imbalance(packing_, forces), count_coulomb(packing_, forces, 0).worst_violation,
-                  worst_bound_violation(packing_, forces)}) /
+                  worst_bound_violation(bounds_, forces) / unit}) /
         scale;
     if (primal > tolerance::kPrimalResidual || dual_residual > tolerance::kDualResidual)
       outcome = Outcome::kImprecise;
@@ -206,6 +206,7 @@ class ReactionFinder {
   const ForcePolytope& polytope_;
   const Extrema& extrema_;
   std::vector<ReactionSum> sums_;
+  std::vector<ForceBound> bounds_;
   std::vector<std::unique_ptr<BlockSearch>> blocks_;
   FoundReactions found_;
 };

@@ -9,7 +9,7 @@
 namespace indet {
 
 /// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F; P reactions, of which S
-/// states and U rays.
+/// states and U rays; B bounds of forces.
 enum class Extent : std::uint8_t {
   kOne,
   kDirections,      ///< 2: along normal and tangent, or x and y
@@ -28,7 +28,7 @@ enum class Extent : std::uint8_t {
   kReactionRays,    ///< U
   kBounds           ///< B: of force_bounds()
 };
-/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "S", "U", "B".
+/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "2", "S", "U", "B".
 const char* to_string(Extent extent);
 
 /// When a field has something to say; else files leave it out.

@@ -70,8 +70,8 @@ class Check {
       check_emptiness();
     } else {
       check_objectives();
-      report_.reactions = check_reactions_exactly(packing_, ranges_, problem_, options_.pivot_limit,
-                                                  [&] { return has_solution(); });
+      report_.reactions =
+          check_reactions_exactly(packing_, ranges_, problem_, options_, [&] { return has_solution(); });
       report_.add(report_.reactions);
     }
     return std::move(report_);
@@ -122,12 +122,15 @@ class Check {
     const bool has_motion = ranges_.motion.rows() == packing_.disk_count();
     const std::vector<ForceBound> bounds = force_bounds(packing_);
     const bool has_multipliers = ranges_.bound_multipliers.size() == static_cast<Eigen::Index>(bounds.size());
-    const std::vector<int> planes = half_planes_of(bounds, packing_.contact_count());
+    // What bounds add to the power of a force: R of contact α is component 2α, T is 2α + 1.
+    std::vector<double> of_bounds(2 * packing_.contacts.size(), 0);
     for (std::size_t k = 0; has_multipliers && k < bounds.size(); ++k) {
-      if (planes[k] >= 0)
-        preference[static_cast<std::size_t>(planes[k])] =
-            -std::abs(ranges_.bound_multipliers[static_cast<Eigen::Index>(k)]);
+      const double multiplier = ranges_.bound_multipliers[static_cast<Eigen::Index>(k)];
+      of_bounds[static_cast<std::size_t>(bounds[k].component())] += multiplier;
+      if (bounds[k].half_plane >= 0)
+        preference[static_cast<std::size_t>(bounds[k].half_plane)] = -std::abs(multiplier);
     }
+    const double length = packing_.stress.is_imposed() ? packing_.cell_length() : 1;
     for (int e = 0; has_motion && e < 2 * packing_.contact_count(); ++e) {
       const Contact& contact = packing_[ContactId(e / 2)];
       const double mu = e % 2 == 0 ? contact.mu : -contact.mu;
@@ -143,12 +146,10 @@ class Check {
         const auto v = ranges_.wall_motion.row(contact.b.wall_id().value());
         total -= v[0] + mu * v[1];
       }
-      for (std::size_t k = 0; has_multipliers && k < bounds.size(); ++k) {
-        if (bounds[k].contact.value() == e / 2)
-          total += ranges_.bound_multipliers[static_cast<Eigen::Index>(k)] * (bounds[k].tangential ? mu : 1);
-      }
+      const auto R = static_cast<std::size_t>(e - e % 2);
+      total += of_bounds[R] + mu * of_bounds[R + 1];
       if (ranges_.cell_motion.rows() == 2)
-        total -= force.dot(ranges_.cell_motion * packing_.branch(contact)) / packing_.cell_length();
+        total -= force.dot(ranges_.cell_motion * packing_.branch(contact)) / length;
       preference[static_cast<std::size_t>(e)] = -std::abs(total);
     }
     const auto basis = basis_by(preference);
@@ -314,12 +315,7 @@ class Check {
   }
 
   bool contains(Eigen::Index i, int column, const mpq_class& value) const {
-    const double lower = ranges_.lower(i, column);
-    const double upper = ranges_.upper(i, column);
-    if (std::isnan(lower) || std::isnan(upper)) return false;
-    const bool above = lower == -kInfinity || (std::isfinite(lower) && mpq_class(lower) <= value);
-    const bool below = upper == kInfinity || (std::isfinite(upper) && value <= mpq_class(upper));
-    return above && below;
+    return exact::contains({ranges_.lower(i, column), ranges_.upper(i, column)}, value);
   }
 
   void write_states() {

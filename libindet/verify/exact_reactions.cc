@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/error.h"
+#include "libindet/base/worker_team.h"
 #include "libindet/exact/optimum.h"
+#include "libindet/verify/exact_check.h"
 #include "libindet/verify/rebuilt_sums.h"
 
 namespace indet {
@@ -21,21 +24,15 @@ using exact::Goal;
 using exact::Optimum;
 using exact::Verdict;
 
-bool holds(double lower, double upper, const mpq_class& value) {
-  const bool above = lower == -kInfinity || (std::isfinite(lower) && mpq_class(lower) <= value);
-  const bool below = upper == kInfinity || (std::isfinite(upper) && value <= mpq_class(upper));
-  return above && below;
-}
-
 class ReactionProver {
  public:
   ReactionProver(const Packing& packing, const ForceRanges& ranges, const exact::ContactProblem& problem,
-                 int pivot_limit, const std::function<bool()>& has_solution)
+                 const ExactCheckOptions& options, const std::function<bool()>& has_solution)
       : packing_(packing),
         ranges_(ranges),
         r_(ranges.reactions),
         problem_(problem),
-        pivot_limit_(pivot_limit),
+        options_(options),
         has_solution_(has_solution) {
     const Eigen::Index count = r_.count();
     result_.proof.setConstant(count, 2, Proof::kNotAsked);
@@ -57,12 +54,27 @@ class ReactionProver {
       result_.add_message("reactions: the stored rows are not those of the packing");
       return std::move(result_);
     }
-    for (Eigen::Index k = 0; k < r_.count(); ++k) {
-      for (const int end : {0, 1}) {
-        const Goal goal = goal_of(sums[static_cast<std::size_t>(k)], end);
-        const auto start = start_of(k, end);
-        record(k, end, start ? exact::maximise(problem_, start, goal, pivot_limit_) : Optimum{});
-      }
+    // Rounds, as in check_exactly: both ends of a few sums at a time.
+    WorkerTeam team(options_.threads);
+    const std::int64_t total = 2 * static_cast<std::int64_t>(r_.count());
+    const std::int64_t round = 4 * std::max(1, options_.threads);
+    for (std::int64_t first = 0; first < total; first += round) {
+      std::vector<Optimum> found(static_cast<std::size_t>(std::min(round, total - first)));
+      team.run(std::ssize(found), [&](int, std::int64_t task) {
+        const Eigen::Index k = (first + task) / 2;
+        const int end = static_cast<int>((first + task) % 2);
+        if (const auto start = start_of(k, end)) {
+          const Goal goal = goal_of(sums[static_cast<std::size_t>(k)], end);
+          found[static_cast<std::size_t>(task)] =
+              exact::maximise(problem_, start, goal, options_.pivot_limit);
+        }
+      });
+      for (std::int64_t task = 0; task < std::ssize(found); ++task)
+        record((first + task) / 2, static_cast<int>((first + task) % 2),
+               found[static_cast<std::size_t>(task)]);
+      const std::int64_t done = std::min(first + round, total);
+      if (options_.progress && !options_.progress({"exact arithmetic, reactions", done, total, {}}))
+        throw Interrupted();
     }
     return std::move(result_);
   }
@@ -106,11 +118,11 @@ class ReactionProver {
       proof = std::isinf(stored) ? Proof::kRefuted : agreed;
       take(k, end, optimum);
       if (std::isfinite(stored)) {
-        const double error = mpq_class(abs(mpq_class(stored) - optimum.value)).get_d() / ranges_.force_unit;
+        const double error = mpq_class(abs(mpq_class(stored) - optimum.value)).get_d() / unit_of(k);
         result_.worst_error = std::max(result_.worst_error, error);
         if (certified) result_.worst_certified_error = std::max(result_.worst_certified_error, error);
       }
-      if (certified && !holds(r_.lower(k, end), r_.upper(k, end), optimum.value)) {
+      if (certified && !exact::contains({r_.lower(k, end), r_.upper(k, end)}, optimum.value)) {
         ++result_.contradictions;
         result_.add_message(
             fmt::format("{}: the exact value {:.17g} is outside of the stored bounds [{:.17g}, {:.17g}]",
@@ -118,20 +130,33 @@ class ReactionProver {
       }
     } else if (optimum.verdict == Verdict::kUnbounded && has_solution_()) {
       const double infinite = end == 0 ? -kInfinity : kInfinity;
+      const double bound = end == 0 ? r_.lower(k, end) : r_.upper(k, end);
       result_.value(k, end) = result_.lower(k, end) = result_.upper(k, end) = infinite;
       proof = stored == infinite || std::isnan(stored) ? agreed : Proof::kRefuted;
-      if (proof == Proof::kRefuted && certified) ++result_.contradictions;
+      if (proof == Proof::kRefuted && certified && bound != infinite) ++result_.contradictions;
     } else if (optimum.verdict == Verdict::kEmpty || optimum.verdict == Verdict::kInconsistent) {
       proof = Proof::kRefuted;
     }
-    if (proof == Proof::kRefuted || proof == Proof::kUndecided) {
-      result_.add_message(fmt::format("{}: {} is stored, {}", place, stored,
-                                      proof == Proof::kUndecided
-                                          ? fmt::format("not decided within {} exact pivots", optimum.pivots)
-                                          : fmt::format("exactly it is {}", result_.value(k, end))));
+    if (proof == Proof::kUndecided) {
+      result_.add_message(
+          optimum.verdict == Verdict::kUnbounded
+              ? fmt::format("{}: it grows without limit if there is any state, which is undecided", place)
+              : fmt::format("{}: not decided within {} exact pivots", place, optimum.pivots));
+    } else if (proof == Proof::kRefuted) {
+      result_.add_message(
+          std::isnan(result_.value(k, end))
+              ? fmt::format("{}: exactly, the packing has no admissible state", place)
+              : fmt::format("{}: {} is stored, exactly it is {}", place, stored, result_.value(k, end)));
     }
     result_.proof(k, end) = proof;
     result_.count(proof);
+  }
+
+  /// mg in the scene's units, times the radius for a torque.
+  double unit_of(Eigen::Index k) const {
+    const Body body = Body::from_code(r_.body[k]);
+    const bool is_torque = !body.is_wall() && r_.component[k] == 2;
+    return ranges_.force_unit * (is_torque ? packing_[body.disk_id()].radius : 1);
   }
 
   void take(Eigen::Index k, int end, const Optimum& optimum) {
@@ -151,7 +176,7 @@ class ReactionProver {
   const ForceRanges& ranges_;
   const Reactions& r_;
   const exact::ContactProblem& problem_;
-  int pivot_limit_;
+  const ExactCheckOptions& options_;
   const std::function<bool()>& has_solution_;
   ExactReactions result_;
 };
@@ -159,9 +184,9 @@ class ReactionProver {
 }  // namespace
 
 ExactReactions check_reactions_exactly(const Packing& packing, const ForceRanges& ranges,
-                                       const exact::ContactProblem& problem, int pivot_limit,
+                                       const exact::ContactProblem& problem, const ExactCheckOptions& options,
                                        const std::function<bool()>& has_solution) {
-  return ReactionProver(packing, ranges, problem, pivot_limit, has_solution).run();
+  return ReactionProver(packing, ranges, problem, options, has_solution).run();
 }
 
 }  // namespace indet

@@ -10,6 +10,8 @@
 
 namespace indet {
 
+struct ExactCheckOptions;  // exact_check.h
+
 /// The exact answer to both ends of each reaction, as for contacts (exact_check.h). P sums.
 struct ExactReactions : ExactTally {
   Table2<Proof> proof;
@@ -24,7 +26,7 @@ struct ExactReactions : ExactTally {
 /// there is an admissible state at all; asked where a sum grows without limit. Where the stored rows are not
 /// those of the packing, nothing is proven, and that is a contradiction. Precondition: F is not empty.
 ExactReactions check_reactions_exactly(const Packing& packing, const ForceRanges& ranges,
-                                       const exact::ContactProblem& problem, int pivot_limit,
+                                       const exact::ContactProblem& problem, const ExactCheckOptions& options,
                                        const std::function<bool()>& has_solution);
 
 }  // namespace indet

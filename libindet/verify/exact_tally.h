@@ -19,8 +19,8 @@ enum class Proof : std::uint8_t {
 struct ExactTally {
   std::int64_t proven = 0, repaired = 0, refuted = 0, undecided = 0;
   std::int64_t pivots = 0;
-  std::int64_t contradictions = 0;    ///< certified numbers whose enclosure does not contain the exact value
-  double worst_error = 0;             ///< |stored − exact| over all finite values that agree in kind (mg)
+  std::int64_t contradictions = 0;  ///< certified numbers whose enclosure does not contain the exact value
+  double worst_error = 0;  ///< |stored − exact| over all finite values that agree in kind (mg; torques mg r)
   double worst_certified_error = 0;   ///< the same, over those stored as `optimal`
   std::vector<std::string> messages;  ///< the first twenty results that are not proven, or contradicted
 

@@ -128,6 +128,13 @@ double RebuiltProblem::violation(const Eigen::VectorXd& forces) const {
   return worst;
 }
 
+double RebuiltProblem::narrowest_interval() const {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (const ForceBound& bound : inequalities_)
+    narrowest = std::min(narrowest, std::abs(bound.value - bound.other) / force_unit_);
+  return narrowest;
+}
+
 double RebuiltProblem::ray_violation(const Eigen::VectorXd& ray) const {
   double worst = 0;
   for (int h = 0; h < 2 * packing_.contact_count(); ++h) worst = std::max(worst, -slack(h, ray));

@@ -30,6 +30,8 @@ class RebuiltProblem {
   /// Slack of half-plane h: 2α: μR + T (R where μ = 0), 2α + 1: μR − T (R where μ = 0), divided by √(1 + μ²),
   /// as −min(0, ·) for all: largest violation.
   double violation(const Eigen::VectorXd& forces) const;
+  /// The narrowest interval that bounds leave to a force, in force units; +inf: none.
+  double narrowest_interval() const;
   /// Half-planes 2M, 2M + 1, … are the bounds of the scene (force_bounds.h) that are inequalities.
   int half_planes() const { return 2 * packing_.contact_count() + static_cast<int>(inequalities_.size()); }
   /// The same along a direction of growth, in which bounds have the value 0.

@@ -13,6 +13,7 @@
 #include "libindet/verify/cell_motion_check.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/estimate_check.h"
+#include "libindet/verify/needed_equations.h"
 #include "libindet/verify/reactions_check.h"
 #include "libindet/verify/rebuilt_problem.h"
 
@@ -47,7 +48,7 @@ class Verifier {
     for (const Contact& contact : packing_.contacts) unknowns += contact.mu > 0 ? 2 : 1;
     unknowns += problem_.half_planes() - 2 * packing_.contact_count();  // slacks
     compare_.equal_count(ranges_.unknowns, unknowns, "unknowns");
-    compare_.equal_count(ranges_.equations, needed_equations(), "equations");
+    compare_.equal_count(ranges_.equations, needed_equations(packing_), "equations");
     compare_.require(ranges_.dim <= ranges_.nullity, "dim: {} is larger than the nullity {}", ranges_.dim,
                      ranges_.nullity);
     const bool is_point = ranges_.status == PolytopeStatus::kPoint;
@@ -104,6 +105,7 @@ class Verifier {
       const Eigen::VectorXd forces = state(k);
       const double scale =
           std::max(problem_.internal_unit(), forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0);
+      largest_scale_ = std::max(largest_scale_, scale);
       residuals_.push_back(compare_.add_state(problem_, forces) / scale);
       compare_.require(std::isfinite(residuals_.back()), "state {}: not a number", k);
       compare_.equal(ranges_.norm[k], ranges_.states.row(k).norm(), fmt::format("norm of state {}", k));
@@ -293,43 +295,6 @@ class Verifier {
     compare_.equal_count(ranges_.non_transmitting, idle, "non_transmitting");
   }
 
-  /// Equations that the scene needs: forces on a disk that something touches or pulls, and its torque where a
-  /// contact with friction, or a load, turns it.
-  std::int64_t needed_equations() const {
-    std::vector<bool> is_touched(packing_.disks.size(), false);
-    std::vector<bool> is_turned(packing_.disks.size(), false);
-    for (const Contact& contact : packing_.contacts) {
-      const auto touch = [&](DiskId disk) {
-        if (packing_[disk].fixed) return;
-        const auto i = static_cast<std::size_t>(disk.value());
-        is_touched[i] = true;
-        is_turned[i] = is_turned[i] || contact.mu > 0;
-      };
-      touch(contact.a);
-      if (!contact.b.is_wall()) touch(contact.b.disk_id());
-    }
-    auto count = static_cast<std::int64_t>(force_bounds(packing_).size());
-    for (const double stress : packing_.stress.components())
-      count += !std::isnan(stress) && (!packing_.contacts.empty() || stress != 0) ? 1 : 0;
-    for (int w = 0; w < packing_.wall_count(); ++w) {
-      const Wall& wall = packing_[WallId(w)];
-      bool touched = false;
-      bool rubbed = false;
-      for (const Contact& contact : packing_.contacts) {
-        if (contact.b != Body::wall(WallId(w))) continue;
-        touched = true;
-        rubbed = rubbed || contact.mu > 0;
-      }
-      count += !std::isnan(wall.load_n) && (touched || wall.load_n != 0) ? 1 : 0;
-      count += !std::isnan(wall.load_t) && (rubbed || wall.load_t != 0) ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < packing_.disks.size(); ++i) {
-      const Vector3 load = packing_.wrench(DiskId(static_cast<int>(i)));
-      for (int k = 0; k < 3; ++k) count += (k < 2 ? is_touched[i] : is_turned[i]) || load[k] != 0 ? 1 : 0;
-    }
-    return count;
-  }
-
   /// What follows from the directions in which F extends, where the stored states reach its interior.
   void check_hull() {
     if (ranges_.status == PolytopeStatus::kEmpty) {
@@ -376,13 +341,18 @@ class Verifier {
     if (ranges_.failed > 0)
       compare_.call_unsolved(fmt::format("{} of {} objectives failed", ranges_.failed, ranges_.objectives));
     if (ranges_.status == PolytopeStatus::kEmpty && ranges_.doubtful)
-      compare_.call_unsolved("that the packing cannot stand is in doubt");
+      compare_.call_unsolved("that no contact forces are admissible is in doubt");
     compare_.leave_unchecked(
         "rank_gap, smallest_accepted, largest_rejected, rank_ambiguous, doubtful of /equilibrium (they "
         "belong to the factorisation of the analysis)");
     if (ranges_.choice == ContactChoice::Kind::kSample)
       compare_.leave_unchecked("sample_seed (contacts are not drawn again)");
     if (ranges_.status == PolytopeStatus::kEmpty) return;
+    if (problem_.narrowest_interval() <= 2 * tolerance::kTightHalfPlane * largest_scale_) {
+      compare_.leave_unchecked(
+          "that values are optimal, as far as bounds of a force are so close that both seem to be reached "
+          "(--exact checks it)");
+    }
     compare_.leave_unchecked(
         "lower, upper, unique, sensitivity, dual_residual of /ranges (multipliers of the linear programs are "
         "not stored; --exact checks lower and upper)");
@@ -393,6 +363,7 @@ class Verifier {
   const ProgressCallback& progress_;
   RebuiltProblem problem_;
   Comparisons compare_;
+  double largest_scale_ = 0;             ///< of the states' residuals
   std::vector<double> residuals_;        ///< a state
   std::vector<std::vector<int>> tight_;  ///< a state: half-planes without slack
 };

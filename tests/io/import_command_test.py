@@ -1,16 +1,13 @@
 """Runs import as a user does (arguments: commands.py)."""
 
 import json
-import pathlib
-import re
-import shlex
 import unittest
 
 import h5py
 import numpy as np
 import pandas as pd
 
-from commands import CONTACTS, DISKS, IMPORTING, WALLS, CommandTest
+from commands import CONTACTS, DISKS, WALLS, CommandTest
 
 
 class Import(CommandTest):
@@ -169,21 +166,6 @@ class Import(CommandTest):
         for arguments in [["xml", "scene"], ["csv"], ["csv", "scene", "--friction", "0.3"], ["lammps", "scene"],
                           ["lammps", "--friction", "0.3"]]:
             self.run_indet("import", "--format", *arguments, "-o", "p.h5", status=2)
-
-    def test_the_examples_of_the_documentation(self):
-        text = pathlib.Path(IMPORTING).read_text()
-        (self.folder / "groove").mkdir()
-        files = re.findall(r"```(?:csv|toml)\n(# (\w+\.\w+).*?)```", text, re.DOTALL)
-        self.assertEqual({name for _, name in files}, {"disks.csv", "walls.csv", "contacts.csv", "scene.toml"})
-        for content, name in files:
-            (self.folder / "groove" / name).write_text(content)
-        commands = re.findall(r"```console\n\$ indet (.*?)\n```", text)
-        self.assertEqual(len(commands), 1)
-        self.run_indet(*shlex.split(commands[0]))
-        with h5py.File(self.folder / "groove.h5") as file:
-            np.testing.assert_array_equal(file["contacts/body_b"][()], [-1, -2])
-            np.testing.assert_allclose(file["contacts/gap"][()], 0, atol=1e-15)
-            np.testing.assert_array_equal(file["contacts/mu"][()], 0.3)
 
 
 if __name__ == "__main__":

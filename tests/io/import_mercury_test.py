@@ -11,7 +11,7 @@ import shutil
 import h5py
 import numpy as np
 
-from importing import BOTH, DATA, ImportTest, TESTS, WALLS, program
+from importing import BOTH, DATA, ImportTest, WALLS, program
 
 FORMAT = ("--format", "mercurydpm")
 
@@ -142,15 +142,6 @@ class DataAndFstat(ImportTest):
             self.assertEqual(shown["duplicates"], 0)
             # The walls come in the order in which they are touched; 1, 2, 0, 3 in both files.
             self.expect_same_packing("p.h5", "restart.h5")
-
-    def test_the_document_shows_what_is_printed(self):
-        text = (TESTS.parent / "docs/importing.md").read_text()
-        shown = text[text.index("$ indet import --format mercurydpm"):].partition("```")[0]
-        command, _, output = shown.replace("\\\n", "").partition("\n")
-        arguments = command.partition(";")[0].split()[2:]
-        arguments[arguments.index("-o") + 1] = "moving.h5"
-        done = self.run_indet(*[a.replace("tests/data", DATA) for a in arguments], status=3)
-        self.assertEqual(output, done.stderr + "exit status 3\n")
 
     def test_walls_lie_exactly_where_they_are_given(self):
         self.read_moving("--walls", "0=x:0,1=x:1,2=y:0,3=y:1")

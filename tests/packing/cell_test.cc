@@ -7,7 +7,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/packing/cancelling_loads.h"
-#include "libindet/packing/exact_sum.h"
+#include "libindet/packing/doubled_sum.h"
 #include "libindet/packing/validate.h"
 #include "tests/support/scene_builder.h"
 
@@ -44,15 +44,15 @@ std::string reason_of(const Packing& packing) {
   return defect ? defect->reason : "";
 }
 
-TEST(ExactSum, KeepsWhatCancels) {
-  ExactSum sum;
+TEST(DoubledSum, KeepsWhatCancels) {
+  DoubledSum sum;
   sum.add(1e16);
   sum.add(1);
   sum.add_product(-1e8, 1e8);
   EXPECT_EQ(sum.value(), 1);
   // (1 + ε)² − 1 − 2ε = ε²
   constexpr double kEpsilon = 0x1p-40;
-  ExactSum square;
+  DoubledSum square;
   square.add_product(1 + kEpsilon, 1 + kEpsilon);
   square.add(-1);
   square.add(-2 * kEpsilon);
@@ -107,6 +107,14 @@ TEST(Cell, NearestImages) {
   EXPECT_EQ(nearest_image(packing, DiskId(0), DiskId(0))[0],
             -2 * nearest_image(packing, DiskId(0), DiskId(0))[1])
       << "the shortest vector is b − 2a";
+  EXPECT_NE(nearest_image(packing, DiskId(0), DiskId(0)), (Image{0, 0}));
+  // Vectors that are far from short ones.
+  packing.cell = {Vector2(1, 0), Vector2(10, 2)};
+  packing.disks[0].position = {0, 0};
+  packing.disks[1].position = {0, 0.9};
+  EXPECT_EQ(nearest_image(packing, DiskId(0), DiskId(1)), (Image{0, 0}));
+  packing.disks[1].position = {0, 2.9};
+  EXPECT_EQ(nearest_image(packing, DiskId(0), DiskId(1)), (Image{10, -1}));
   packing.cell.b.reset();
   EXPECT_EQ(nearest_image(packing, DiskId(0), DiskId(1)), (Image{0, 0}));
 }

@@ -8,7 +8,6 @@ import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree
@@ -16,7 +15,10 @@ import xml.etree.ElementTree
 import h5py
 import numpy as np
 
-INDET = sys.argv.pop()
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import program  # noqa: E402
+
+INDET = program.INDET = sys.argv.pop()
 SMALL = ["--disks", "15", "--seed", "2"]
 
 
@@ -36,18 +38,7 @@ def residual(path):
         return np.abs(force).max() / file["parameters"].attrs["mg"]
 
 
-class SimulateTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_indet(self, *arguments, status=0):
-        done = subprocess.run([INDET, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              timeout=100, check=False)
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done
-
+class SimulateTest(program.ProgramTest):
     def test_every_protocol_makes_a_balanced_packing(self):
         self.run_indet("simulate", "--protocol", "cd1", *SMALL, "-o", "cd1.h5")
         for protocol, more in (("md1", SMALL), ("cd2", ["--from", "cd1.h5"]), ("md2", ["--from", "cd1.h5"]),

@@ -8,7 +8,7 @@ namespace indet {
 /// 26, 1955): each addition and product leaves its rounding, and these are summed beside. Of two numbers the
 /// sum is the nearest double; of a few it differs from the exact one by 1 rounding of the result and about
 /// 1e-31 of the terms.
-class ExactSum {
+class DoubledSum {
  public:
   void add(double term) {
     const double sum = sum_ + term;
