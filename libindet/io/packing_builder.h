@@ -10,6 +10,7 @@
 
 #include "libindet/io/import_settings.h"
 #include "libindet/io/imported_packing.h"
+#include "libindet/io/table.h"
 #include "libindet/packing/validate.h"
 
 namespace indet {
