@@ -231,7 +231,7 @@ class OfSamples(Tampered):
 
 class OfAnEnsemble(Tampered):
     def test_the_samplings_of_a_member(self):
-        self.run_indet("ensemble", "--seeds", "1", "--disks", "10", "--samples", "60", "-o", "e")
+        self.run_indet("ensemble", "--protocols", "cd1", "--seeds", "1", "--disks", "10", "--samples", "60", "-o", "e")
         shutil.copy(self.folder / "e/members/cd1-0000.h5", self.folder / "good.h5")
         self.run_indet("verify", "good.h5")
         with h5py.File(self.folder / "good.h5") as file:

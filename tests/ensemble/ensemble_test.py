@@ -1,6 +1,6 @@
 """Runs ensemble and merge as a user does, stops them, goes on, and reads the tables with h5py.
 
-Argument: the indet executable.
+Arguments: the indet executable, and a class of tests.
 """
 
 import json
@@ -51,6 +51,8 @@ class EnsembleTest(program.ProgramTest):
     def ensemble(self, folder, *more, status=0):
         return self.run_indet("ensemble", *TINY, "-o", folder, *more, status=status)
 
+
+class Commands(EnsembleTest):
     def test_tables_hold_what_the_members_hold(self):
         self.made_ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
@@ -97,22 +99,6 @@ class EnsembleTest(program.ProgramTest):
         row = list(runs["member"]).index(b"md2-0001")
         self.assertAlmostEqual(runs["distance_cd1"][row], squares ** 0.5, delta=1e-9)
         self.assertTrue(np.isnan(runs["distance_cd1"][list(runs["member"]).index(b"md1-0001")]))
-
-    def test_killed_runs_go_on_to_the_same_tables(self):
-        self.made_ensemble("whole")
-        kills = 0
-        for delay in (0.15, 0.4, 0.8, 1.2):
-            process = subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "killed", "--threads", "2"],
-                                       cwd=self.folder, stdout=subprocess.DEVNULL)
-            time.sleep(delay)
-            kills += process.poll() is None
-            process.send_signal(signal.SIGKILL)
-            process.wait()
-        self.assertGreater(kills, 0)
-        self.ensemble("killed")
-        self.assertEqual(content(self.folder / "killed/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
-        leftovers = [path for path in (self.folder / "killed").rglob("*.tmp")]
-        self.assertEqual(leftovers, [])
 
     def test_a_finished_member_is_skipped_and_a_damaged_or_different_one_is_not(self):
         self.made_ensemble("e")
@@ -214,7 +200,9 @@ class EnsembleTest(program.ProgramTest):
             self.assertIn("expected a number, or all", self.run_indet(*arguments, wrong, "-o", "f", status=2).stderr)
 
     def test_the_walk_of_the_paper_is_that_of_the_command(self):
-        self.ensemble("e", "--paper-walk", "1")
+        self.made_ensemble("e")
+        first = json.loads(self.ensemble("e", "--paper-walk", "1", "--json").stdout)
+        self.assertEqual((first["done"], first["skipped"]), (4, 4))
         runs = table(self.folder / "e/ensemble.h5", "runs")
         contacts = table(self.folder / "e/ensemble.h5", "contacts")
         self.assertTrue((np.isnan(runs["paper_walks"]) == (runs["seed"] == 1)).all())
@@ -311,34 +299,6 @@ class EnsembleTest(program.ProgramTest):
             with h5py.File(path) as file:
                 self.assertEqual(file.attrs["complete"], 1)
 
-    def test_progress_counts_the_packings_that_are_there_already(self):
-        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", "--uniform-seeds", "0", "--threads", "1", "-o", "e"]
-        self.run_indet(*arguments, "--members", "0")
-        here, terminal = pty.openpty()
-        process = subprocess.Popen([program.INDET, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)
-        os.close(terminal)
-        shown = b""
-        while b"of 3 packings" not in shown and process.poll() is None:
-            shown += os.read(here, 1000)
-        self.assertIn(b"1 of 3 packings", shown)
-        process.kill()
-        process.wait()
-        os.close(here)
-
-    def test_processes_share_a_folder(self):
-        self.made_ensemble("alone")
-        started = [subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "e", "--threads", "2", "--json"], cwd=self.folder,
-                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
-        for process in started:
-            output, error = process.communicate(timeout=120)
-            self.assertEqual((process.returncode, error), (0, ""))
-            report = json.loads(output)
-            self.assertEqual((report["done"] + report["skipped"], report["missing"]), (8, []))
-        self.assertEqual(content(self.folder / "e/ensemble.h5"), content(self.folder / "alone/ensemble.h5"))
-        for path in (self.folder / "e/members").iterdir():
-            self.assertEqual(content(path), content(self.folder / "alone/members" / path.name))
-        self.assertEqual(len(list((self.folder / "e").rglob("*"))), 11)  # two files, the folder, and the members
-
     def test_a_folder_of_an_earlier_version_is_refused_until_it_is_renamed(self):
         self.made_ensemble("e")
         whole = content(self.folder / "e/ensemble.h5")
@@ -366,6 +326,54 @@ class EnsembleTest(program.ProgramTest):
         self.run_indet("merge", ".", "-o", "m", status=3)
         self.run_indet("ensemble", "--protocols", "cd3", "-o", "e", status=2)
         self.assertEqual(self.files(), [])
+
+
+class Processes(EnsembleTest):
+    """Several of them, killed ones, and what they show."""
+
+    def test_killed_runs_go_on_to_the_same_tables(self):
+        self.made_ensemble("whole")
+        kills = 0
+        for delay in (0.15, 0.4, 0.8, 1.2):
+            process = subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "killed", "--threads", "2"],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL)
+            time.sleep(delay)
+            kills += process.poll() is None
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        self.assertGreater(kills, 0)
+        self.ensemble("killed")
+        self.assertEqual(content(self.folder / "killed/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        leftovers = [path for path in (self.folder / "killed").rglob("*.tmp")]
+        self.assertEqual(leftovers, [])
+
+    def test_progress_counts_the_packings_that_are_there_already(self):
+        arguments = ["ensemble", "--protocols", "md1", "--seeds", "3", "--disks", "50", "--uniform-seeds", "0", "--threads", "1", "-o", "e"]
+        self.run_indet(*arguments, "--members", "0")
+        here, terminal = pty.openpty()
+        process = subprocess.Popen([program.INDET, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)
+        os.close(terminal)
+        shown = b""
+        while b"of 3 packings" not in shown and process.poll() is None:
+            shown += os.read(here, 1000)
+        self.assertIn(b"1 of 3 packings", shown)
+        process.kill()
+        process.wait()
+        os.close(here)
+
+    def test_processes_share_a_folder(self):
+        self.made_ensemble("alone")
+        started = [subprocess.Popen([program.INDET, "ensemble", *TINY, "-o", "e", "--threads", "2", "--json"], cwd=self.folder,
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
+        for process in started:
+            output, error = process.communicate(timeout=120)
+            self.assertEqual((process.returncode, error), (0, ""))
+            report = json.loads(output)
+            self.assertEqual((report["done"] + report["skipped"], report["missing"]), (8, []))
+        self.assertEqual(content(self.folder / "e/ensemble.h5"), content(self.folder / "alone/ensemble.h5"))
+        for path in (self.folder / "e/members").iterdir():
+            self.assertEqual(content(path), content(self.folder / "alone/members" / path.name))
+        self.assertEqual(len(list((self.folder / "e").rglob("*"))), 11)  # two files, the folder, and the members
 
 
 if __name__ == "__main__":

@@ -52,8 +52,8 @@ class ImportTest(program.ProgramTest):
             text = text.replace(old, new, 1)
         file.write_text(text)
 
-    def analyze(self, name="p.h5"):
-        shown = json.loads(self.run_indet("--json", "analyze", name, "-o", "r.h5").stdout)
+    def analyze(self, name="p.h5", contacts="all"):
+        shown = json.loads(self.run_indet("--json", "analyze", name, "--contacts", contacts, "-o", "r.h5").stdout)
         self.assertEqual(shown["certified"], shown["objectives"])
         self.assertEqual(json.loads(self.run_indet("--json", "verify", "r.h5").stdout)["contradictions"], 0)
         return shown

@@ -135,7 +135,7 @@ class SimulateTest(program.ProgramTest):
         self.assertIn("--every", self.run_indet("trajectory", "n.h5", "-o", "x.svg", status=3).stderr)
 
     def test_interrupted_run_resumes_to_the_same_bytes(self):
-        run = ["simulate", "--protocol", "cd1", "--disks", "120", "--every", "2"]
+        run = ["simulate", "--protocol", "cd1", "--disks", "80", "--every", "2"]
         self.run_indet(*run, "-o", "whole.h5")
         process = subprocess.Popen([INDET, *run, "--checkpoint", "0.1", "-o", "p.h5"], cwd=self.folder,
                                    stderr=subprocess.DEVNULL)
