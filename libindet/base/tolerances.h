@@ -382,4 +382,28 @@ inline constexpr double kWallStart = 1e-12;
 /// A quotient this little below a whole number is that number.
 inline constexpr double kWholeNumber = 1e-9;
 
+// Interior point method (libindet/barrier).
+
+/// A pivot of A D Aᵀ below this, relative to the diagonal entry that it was, is rounding, and becomes huge:
+/// its row is left out of the step.
+inline constexpr double kVanishingPivot = 1e-15;
+inline constexpr double kHugePivot = 1e60;
+
+/// The analytic centre is found when A x = b holds to this, relative to the largest strength (at least one
+/// internal unit), and x_k (Aᵀ y)_k = 1 to this. It need not be exact: what is proven of it is proven of the
+/// point as it is.
+inline constexpr double kCentreBalance = 1e-10;
+inline constexpr double kCentring = 1e-6;
+
+/// Strengths beyond this (internal unit) on the way to the centre tell that there is none.
+inline constexpr double kFarthestCentre = 1e14;
+
+/// What is left of Aᵀ y + s = c becomes part of s if it is smaller than this share of it.
+inline constexpr double kAbsorbedDualResidual = 1e-3;
+
+/// An objective whose gap has not fallen below this share of the smallest before, in so many iterations, is
+/// given up with what it has.
+inline constexpr double kProgress = 0.9;
+inline constexpr int kIdleIterations = 15;
+
 }  // namespace indet::tolerance

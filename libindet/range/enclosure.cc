@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/rounding_bounds.h"
 #include "libindet/dense/lu.h"
 #include "libindet/range/equation_bounds.h"
-#include "libindet/range/rounding_bounds.h"
 
 namespace indet {
 namespace {

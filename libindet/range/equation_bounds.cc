@@ -1,9 +1,10 @@
 #include "libindet/range/equation_bounds.h"
 
 #include <cmath>
+#include <span>
 
 #include "libindet/base/constants.h"
-#include "libindet/range/rounding_bounds.h"
+#include "libindet/base/rounding_bounds.h"
 
 namespace indet {
 namespace {
@@ -108,7 +109,8 @@ double EquationBounds::distance_to_solution(const Eigen::VectorXd& u) const {
 }
 
 double EquationBounds::load_bound(const Eigen::VectorXd& y) const {
-  const Dot dot = accurate_dot(y, load_);
+  const Dot dot = accurate_dot(std::span(y.data(), static_cast<std::size_t>(y.size())),
+                               std::span(load_.data(), static_cast<std::size_t>(load_.size())));
   return dot.value + kWiden * (dot.error + y.cwiseAbs().dot(load_error_));
 }
 

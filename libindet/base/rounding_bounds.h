@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <span>
 
 namespace indet {
 
@@ -14,6 +14,7 @@ struct Dot {
   double value = 0;
   double error = 0;
 };
-Dot accurate_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
+/// Precondition: of one length.
+Dot accurate_dot(std::span<const double> x, std::span<const double> y);
 
 }  // namespace indet

@@ -1,14 +1,15 @@
-#include "libindet/range/rounding_bounds.h"
+#include "libindet/base/rounding_bounds.h"
 
 #include <cmath>
+#include <cstddef>
 
 namespace indet {
 
-Dot accurate_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+Dot accurate_dot(std::span<const double> x, std::span<const double> y) {
   double sum = 0;
   double correction = 0;
   double magnitude = 0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
     const double product = x[i] * y[i];
     const double low = std::fma(x[i], y[i], -product);
     const double next = sum + product;

@@ -1,0 +1,270 @@
+#include "libindet/barrier/verified_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libindet/base/constants.h"
+#include "libindet/base/rounding_bounds.h"
+
+namespace indet::barrier {
+namespace {
+
+/// γ_n of Higham: the relative rounding of a sum of n products.
+double gamma(double n) { return n * kRoundoff / (1 - n * kRoundoff); }
+
+/// |A| |x|.
+std::vector<double> magnitude_product(const BlockStructure& s, std::span<const double> x) {
+  std::vector<double> result(static_cast<std::size_t>(s.rows()), 0.0);
+  for (const BlockStructure::Group& group : s.groups()) {
+    for (int t = group.first_touch; t < group.end_touch; ++t) {
+      const BlockStructure::Touch& touch = s.touches()[static_cast<std::size_t>(t)];
+      for (int e = 0; e < group.columns; ++e) {
+        for (int r = 0; r < touch.rows; ++r) {
+          result[static_cast<std::size_t>(touch.first_row + r)] +=
+              std::abs(s.coefficients()[static_cast<std::size_t>(touch.coefficients + e * touch.rows + r)]) *
+              std::abs(x[static_cast<std::size_t>(group.first_column + e)]);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+/// Calls visit(column, place, entry) for every entry of A, zeros of blocks too.
+template <class Visit>
+void for_each_entry(const BlockStructure& s, Visit visit) {
+  for (const BlockStructure::Group& group : s.groups()) {
+    for (int e = 0; e < group.columns; ++e) {
+      for (int t = group.first_touch; t < group.end_touch; ++t) {
+        const BlockStructure::Touch& touch = s.touches()[static_cast<std::size_t>(t)];
+        for (int r = 0; r < touch.rows; ++r) {
+          visit(static_cast<std::size_t>(group.first_column + e),
+                static_cast<std::size_t>(touch.first_row + r),
+                s.coefficients()[static_cast<std::size_t>(touch.coefficients + e * touch.rows + r)]);
+        }
+      }
+    }
+  }
+}
+
+double norm(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+VerifiedEquations::VerifiedEquations(const EquilibriumProblem& problem, const BlockStructure& structure,
+                                     const AnalyticCentre& centre)
+    : structure_(structure), centre_(centre), cholesky_(structure) {
+  for (const int row : structure.equation_of_place()) {
+    const EquilibriumRow& equation = problem.rows[static_cast<std::size_t>(row)];
+    // Entries are stored doubles or rounded a few times; those of stress are f·l/L with |f| ≤ √2, |l|/L ≤
+    // 3/2.
+    entry_error_.push_back((equation.body.is_cell() ? 24 : 8) * kRoundoff);
+    load_error_.push_back(6 * kRoundoff * equation.load / equation.unit + kTiny);
+  }
+  row_terms_.assign(entry_error_.size(), 0);
+  for_each_entry(structure, [&](std::size_t, std::size_t place, double) { row_terms_[place] += 1; });
+  for (const double x : centre.x) squares_.push_back(x * x);
+  bound_singular_value();
+  bound_strengths();
+  cholesky_.factor(squares_);
+  centre_shift_ = shift_of(centre.x);
+  if (!(centre_shift_ < 1)) sigma_ = 0;
+}
+
+void VerifiedEquations::bound_singular_value() {
+  // A scale of powers of two that makes the diagonal of S A X² Aᵀ S about 1.
+  std::vector<double> diagonal(row_terms_.size(), 0);
+  for_each_entry(structure_, [&](std::size_t column, std::size_t place, double entry) {
+    diagonal[place] += entry * entry * squares_[column];
+  });
+  for (const double d : diagonal) scale_.push_back(d > 0 ? std::exp2(-std::round(0.5 * std::log2(d))) : 1);
+  if (diagonal.empty()) {
+    sigma_ = kInfinity;
+    return;
+  }
+  // The smallest eigenvalue, estimated by inverse iteration from a generic start.
+  if (!cholesky_.factor(squares_, scale_)) return;
+  std::vector<double> v(diagonal.size());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i));
+  double estimate = kInfinity;
+  for (int step = 0; step < 12; ++step) {
+    const double length = norm(v);
+    for (double& entry : v) entry /= length;
+    cholesky_.solve(v);
+    estimate = std::min(estimate, 1 / norm(v));
+  }
+  // What rounding can have done: to the entries of the matrix, and in its factorisation.
+  double trace = 0;
+  for (int node = 0; node < structure_.nodes(); ++node) {
+    for (int i = structure_.first_row(node); i < structure_.first_row(node + 1); ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      trace += gamma(structure_.row_length(node) + 2) * diagonal[place] * scale_[place] * scale_[place];
+    }
+  }
+  std::vector<double> along(squares_.size(), 0);
+  for_each_entry(structure_, [&](std::size_t column, std::size_t place, double entry) {
+    along[column] += std::abs(entry) * scale_[place];
+  });
+  for (std::size_t k = 0; k < along.size(); ++k) along[k] *= squares_[k];
+  std::vector<double> sums = magnitude_product(structure_, along);
+  double widest = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i) widest = std::max(widest, sums[i] * scale_[i]);
+  const double rounding =
+      2 * (2 * trace + gamma(static_cast<double>(structure_.columns() + 8)) * widest) + kTiny;
+  double entries = 0;
+  for_each_entry(structure_, [&](std::size_t column, std::size_t place, double) {
+    const double error = entry_error_[place] * scale_[place] * centre_.x[column];
+    entries += error * error;
+  });
+  for (const double share : {0.5, 0.2, 0.02}) {
+    const double shift = share * estimate;
+    if (!cholesky_.factor(squares_, scale_, shift)) continue;
+    const double square = shift - rounding;
+    sigma_ = square > 0 ? std::max(0.0, std::sqrt(square) / kWiden - kWiden * std::sqrt(entries)) : 0;
+    if (sigma_ > 0) break;
+  }
+}
+
+VerifiedEquations::LoadProduct VerifiedEquations::load_product(std::span<const double> y) const {
+  const Dot dot = accurate_dot(y, structure_.load());
+  double loads = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) loads += std::abs(y[i]) * load_error_[i];
+  return {dot.value, kWiden * (dot.error + kWiden * loads)};
+}
+
+VerifiedEquations::Transposed VerifiedEquations::verified_transposed_product(
+    std::span<const double> y) const {
+  Transposed result;
+  const auto n = static_cast<std::size_t>(structure_.columns());
+  result.value.assign(n, 0);
+  result.error.assign(n, 0);
+  for (const BlockStructure::Group& group : structure_.groups()) {
+    int terms = 4;
+    for (int t = group.first_touch; t < group.end_touch; ++t)
+      terms += structure_.touches()[static_cast<std::size_t>(t)].rows;
+    for (int e = 0; e < group.columns; ++e) {
+      double sum = 0, magnitude = 0, rounded = 0;
+      for (int t = group.first_touch; t < group.end_touch; ++t) {
+        const BlockStructure::Touch& touch = structure_.touches()[static_cast<std::size_t>(t)];
+        const double* a = structure_.coefficients().data() + touch.coefficients +
+                          static_cast<std::ptrdiff_t>(e * touch.rows);
+        for (int r = 0; r < touch.rows; ++r) {
+          const auto place = static_cast<std::size_t>(touch.first_row + r);
+          const double product = a[r] * y[place];
+          sum += product;
+          magnitude += std::abs(product);
+          rounded += entry_error_[place] * std::abs(y[place]);
+        }
+      }
+      const auto k = static_cast<std::size_t>(group.first_column + e);
+      result.value[k] = sum;
+      result.error[k] = kWiden * (kRoundoff * terms * magnitude + kWiden * rounded) + kTiny;
+    }
+  }
+  return result;
+}
+
+void VerifiedEquations::bound_strengths() {
+  const auto n = static_cast<std::size_t>(structure_.columns());
+  strength_.assign(n, kInfinity);
+  const LoadProduct load = load_product(centre_.y);
+  const double total = load.value + load.error;
+  const Transposed along = verified_transposed_product(centre_.y);
+  is_bounded_ = std::isfinite(total);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double least = along.value[k] - along.error[k];
+    if (least > 0) {
+      strength_[k] = kWiden * std::max(0.0, total / least);
+    } else {
+      is_bounded_ = false;
+    }
+  }
+  if (!is_bounded_) std::fill(strength_.begin(), strength_.end(), kInfinity);
+}
+
+std::vector<double> VerifiedEquations::repaired(std::span<const double> x) const {
+  std::vector<double> result(x.begin(), x.end());
+  for (int step = 0; step < 2; ++step) {
+    std::vector<double> w = product(structure_, result);
+    for (std::size_t i = 0; i < w.size(); ++i) w[i] = structure_.load()[i] - w[i];
+    cholesky_.solve(w);
+    const std::vector<double> along = transposed_product(structure_, w);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] += squares_[k] * along[k];
+  }
+  return result;
+}
+
+double VerifiedEquations::shift_of(std::span<const double> x) const {
+  if (!(sigma_ > 0)) return kInfinity;
+  if (row_terms_.empty()) return 0;
+  const std::vector<double> value = product(structure_, x);
+  const std::vector<double> magnitude = magnitude_product(structure_, x);
+  std::vector<double> entries(value.size(), 0);
+  for_each_entry(structure_, [&](std::size_t column, std::size_t place, double) {
+    entries[place] += std::abs(x[column]);
+  });
+  double sum = 0;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const double size = magnitude[i] + std::abs(structure_.load()[i]);
+    const double residual = std::abs(structure_.load()[i] - value[i]) +
+                            kWiden * (gamma(row_terms_[i] + 2) * size + entry_error_[i] * entries[i]) +
+                            load_error_[i] + kTiny;
+    sum += residual * residual * scale_[i] * scale_[i];
+  }
+  const double shift = kWiden * std::sqrt(kWiden * sum) / sigma_;
+  return std::isnan(shift) ? kInfinity : shift;
+}
+
+double VerifiedEquations::lower_bound(const Objective& objective, std::span<const double> y) const {
+  const LoadProduct load = load_product(y);
+  Transposed along = verified_transposed_product(y);
+  for (const auto& [column, weight] : objective) {
+    const auto k = static_cast<std::size_t>(column);
+    along.error[k] += kWiden * 4 * kRoundoff * (std::abs(weight) + std::abs(along.value[k]));
+    along.value[k] -= weight;
+  }
+  double excess = 0;
+  for (std::size_t k = 0; k < along.value.size(); ++k) {
+    const double h = along.value[k] + along.error[k];  // above −h_k
+    if (!(h <= 0)) excess += h * strength_[k];
+  }
+  const double bound = load.value - load.error - kWiden * kWiden * excess;
+  return std::isnan(bound) ? -kInfinity : bound;
+}
+
+double VerifiedEquations::upper_bound(const Objective& objective, std::span<const double> x) const {
+  const double shift = shift_of(x);
+  if (!(shift < kInfinity)) return kInfinity;
+  double share = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double left = x[k] - kWiden * centre_.x[k] * shift;
+    if (left < 0) share = std::max(share, -left / (centre_.x[k] * (1 - centre_shift_) - left));
+    if (std::isnan(left)) return kInfinity;
+  }
+  share = std::min(1.0, kWiden * share);
+  double value = 0, middle = 0, reach = 0, size = 0;
+  for (const auto& [column, weight] : objective) {
+    const auto k = static_cast<std::size_t>(column);
+    value += weight * x[k];
+    middle += weight * centre_.x[k];
+    reach += std::abs(weight) * centre_.x[k];
+    size += std::abs(weight) * (std::abs(x[k]) + centre_.x[k]);
+  }
+  const double terms = 6 + static_cast<double>(objective.size());
+  const double bound = value +
+                       kWiden * (share * std::abs(middle - value) + reach * (shift + share * centre_shift_) +
+                                 2 * gamma(terms) * size) +
+                       kTiny;
+  return std::isnan(bound) ? kInfinity : bound;
+}
+
+ValueBounds VerifiedEquations::enclose(const Objective& objective, std::span<const double> x,
+                                       std::span<const double> y) const {
+  return {lower_bound(objective, y), upper_bound(objective, x)};
+}
+
+}  // namespace indet::barrier

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "libindet/barrier/analytic_centre.h"
+#include "libindet/barrier/block_cholesky.h"
+#include "libindet/barrier/block_structure.h"
+#include "libindet/barrier/lock_step.h"
+#include "libindet/equilibrium/equilibrium_problem.h"
+
+namespace indet::barrier {
+
+/// Bounds of a least value, in the unit of the problem; infinite where nothing is proven.
+struct ValueBounds {
+  double lower = 0, upper = 0;
+};
+
+/// What can be proven about {A x = b, x ≥ 0} from its analytic centre, without trust in any iteration. A and
+/// b are those of the scene, of which the ones in memory are roundings with bounds entry by entry.
+///
+/// *Solutions near a point.* With X = diag(x_c), S a scale of the rows and σ below the smallest singular
+/// value of S A X, every residual ρ has a Δ with A Δ = ρ and
+///
+///   |Δ_k| ≤ x_c,k η,   η = ‖S ρ‖₂ / σ
+///
+/// σ² is found by one Cholesky factorisation of S A X² Aᵀ S − shift · 1 that runs to its end, less what
+/// rounding can have done to it (Rump, BIT 46, 433 (2006)): then A has full rank, too.
+///
+/// *Strengths are limited.* Where Aᵀ y_c > 0, x_k ≤ X_k = b·y_c / (Aᵀ y_c)_k over the whole set.
+///
+/// *A least value c·x*, from any x and y of an iteration:
+///
+///   from below by duality:   c·x ≥ b·y + Σ_k min(0, h_k) X_k,   h = c − Aᵀ y
+///   from above by a point of the set: x is repaired (x += X² Aᵀ w, (A X² Aᵀ) w = b − A x, twice), then some
+///   exact
+///     solution is within x_c η of it, and moved by a share θ towards the one near x_c it violates no x ≥ 0.
+///
+/// The repair is not optional: in the last steps of an iteration ‖b − A x‖ grows, to 0.1 at times.
+class VerifiedEquations {
+ public:
+  /// All must outlive this. Precondition: centre.found.
+  VerifiedEquations(const EquilibriumProblem& problem, const BlockStructure& structure,
+                    const AnalyticCentre& centre);
+
+  /// The rows are independent, the set is bounded, and some x > 0 is in it.
+  bool is_proven() const { return sigma_ > 0 && is_bounded_; }
+  /// σ; 0 where nothing is proven.
+  double smallest_singular_value() const { return sigma_; }
+  /// X, one a column.
+  const std::vector<double>& strength_bounds() const { return strength_; }
+
+  /// x, moved to A x = b but for rounding.
+  std::vector<double> repaired(std::span<const double> x) const;
+  /// Bounds of the least value of the objective. `x`: repaired. They hold whatever x and y are.
+  ValueBounds enclose(const Objective& objective, std::span<const double> x, std::span<const double> y) const;
+
+ private:
+  void bound_singular_value();
+  void bound_strengths();
+  /// η of x.
+  double shift_of(std::span<const double> x) const;
+  double lower_bound(const Objective& objective, std::span<const double> y) const;
+  double upper_bound(const Objective& objective, std::span<const double> x) const;
+  /// Aᵀ y with bounds of what rounding did to it, and to the entries of A.
+  struct Transposed {
+    std::vector<double> value, error;
+  };
+  Transposed verified_transposed_product(std::span<const double> y) const;
+  /// b·y, and a bound of its distance from the exact one.
+  struct LoadProduct {
+    double value = 0, error = 0;
+  };
+  LoadProduct load_product(std::span<const double> y) const;
+
+  const BlockStructure& structure_;
+  const AnalyticCentre& centre_;
+  std::vector<double> squares_;      ///< x_c²
+  std::vector<double> scale_;        ///< S
+  std::vector<double> entry_error_;  ///< of each row: of an entry of A
+  std::vector<double> load_error_;   ///< of b
+  std::vector<double> row_terms_;    ///< entries of a row
+  BlockCholesky cholesky_;           ///< of A X² Aᵀ
+  double sigma_ = 0;
+  double centre_shift_ = 0;  ///< η of the centre, below 1 where σ > 0
+  bool is_bounded_ = false;
+  std::vector<double> strength_;
+};
+
+}  // namespace indet::barrier
