@@ -35,7 +35,8 @@ struct AnalyzeCommand {
   std::string packing;
   std::string output;
   bool overwrite = false;
-  std::string method = "lp";
+  std::string method = "auto";
+  std::optional<double> gap;
   std::vector<std::string> conditions;
   AnalysisArguments arguments;
 };
@@ -248,8 +249,9 @@ void print_quality(const ForceRanges& ranges) {
              counted(ranges.objectives, "extremum", "extrema"), ranges.certified,
              ranges.unbounded > 0 ? fmt::format(" ({} of them unbounded)", ranges.unbounded) : "",
              ranges.imprecise, ranges.failed);
-  fmt::print("largest residuals: {:.1e} of balance and friction, {:.1e} of optimality\n",
-             ranges.worst_primal_residual, ranges.worst_dual_residual);
+  if (ranges.enclosed < ranges.certified)
+    fmt::print("largest residuals: {:.1e} of balance and friction, {:.1e} of optimality\n",
+               ranges.worst_primal_residual, ranges.worst_dual_residual);
   if (ranges.reactions.uncertain() > 0) {
     fmt::print("of {} of walls and fixed disks, {} imprecise or failed\n",
                counted(2 * ranges.reactions.count(), "extremum", "extrema"), ranges.reactions.uncertain());
@@ -337,7 +339,8 @@ int run(const AnalyzeCommand& options, const Context& context) {
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".ranges.h5");
   claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
-  analysis.method = value_of(options.method, kMethods);
+  if (options.method != "auto") analysis.method = value_of(options.method, kMethods);
+  if (options.gap) analysis.gap = *options.gap;
   if (analysis.method != Method::kPivotingPaper) require_no_walk(options.arguments);
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
     throw UsageError(
@@ -371,13 +374,24 @@ Command add_analyze(CLI::App& root) {
   command->add_option("-o,--output", options->output, "File to write (default: P.ranges.h5 beside P.h5)")
       ->type_name("R.h5");
   add_overwrite_option(*command, options->overwrite);
+  std::vector<std::string> method_names = names_of(kMethods);
+  method_names.insert(method_names.begin(), "auto");
   command
       ->add_option(
           "--method", options->method,
           "How the extrema are found. lp: by linear programs; pivoting-paper: by the paper's walk from one "
-          "extremal point to the next, as published; pivoting-tableau: by the same walk, made fast")
-      ->check(CLI::IsMember(names_of(kMethods)))
+          "extremal point to the next, as published; pivoting-tableau: by the same walk, made fast; barrier: "
+          "no "
+          "extremal states, but a proven interval of each value, by an interior point method, which is the "
+          "fastest for large packings; auto: lp, or barrier where no states are wanted and it is faster")
+      ->check(CLI::IsMember(method_names))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--gap", options->gap,
+          "barrier: how wide the interval of a value may be, relative to the value, or to 1 mg where that is "
+          "larger (default: 1e-6)")
+      ->check(CLI::Range(1e-12, 0.5));
   add_condition_option(*command, options->conditions);
   add_analysis_options(*command, options->arguments, Levels::kWithExact);
   return {command, [options](const Context& context) { return run(*options, context); }};

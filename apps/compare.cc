@@ -45,8 +45,6 @@ struct MethodComparison {
   std::vector<Disagreement> disagreements;
 };
 
-bool is_certified(Outcome outcome) { return outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded; }
-
 void compare_states(const ForceRanges& expected, const ForceRanges& found, Eigen::Index i, int column,
                     MethodComparison& comparison) {
   const int first = expected.vertex(i, column);

@@ -96,6 +96,8 @@ std::string describe_method(const ForceRanges& ranges) {
     case Method::kPivotingPaper:
       return fmt::format("{} (neighbour: {}, start: {})", to_string(ranges.method),
                          to_string(ranges.paper_options.neighbour), to_string(ranges.paper_options.start));
+    case Method::kBarrier:
+      return fmt::format("the barrier method (gap {:g})", ranges.gap);
     case Method::kPivotingTableau:
       break;
   }

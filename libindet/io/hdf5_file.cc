@@ -242,13 +242,16 @@ std::vector<std::uint8_t> Hdf5File::read_enum(const std::string& path, const Sha
   const hdf5::Session& session = state_->session;
   const Handle dataset = hdf5::open_checked(session, path, {H5T_ENUM, "an enumeration", 1}, shape);
   const Handle found = session.own(H5Dget_type(dataset.get()), path);
-  const Handle expected = session.enum_type(names, path);
+  const int members = H5Tget_nmembers(found.get());
+  const std::size_t known = std::min(names.size(), static_cast<std::size_t>(std::max(1, members)));
+  const Handle expected =
+      session.enum_type(EnumNames(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(known)), path);
   if (H5Tequal(found.get(), expected.get()) <= 0) {
     session.fail(path, fmt::format("must be an enumeration of {}", fmt::join(names, ", ")));
   }
   auto values = hdf5::read_all<std::uint8_t>(session, dataset, expected.get(), shape, path);
   for (const std::uint8_t value : values) {
-    if (value >= names.size()) session.fail(path, fmt::format("holds {}, which has no name", value));
+    if (value >= known) session.fail(path, fmt::format("holds {}, which has no name", value));
   }
   return values;
 }

@@ -94,7 +94,8 @@ class Hdf5File {
   std::vector<std::int32_t> read_integers(const std::string& path, const Shape& shape) const;
   std::vector<std::int64_t> read_long_integers(const std::string& path, const Shape& shape) const;
   std::vector<std::uint8_t> read_bytes(const std::string& path, const Shape& shape) const;
-  /// Also checks that the enumeration has these names and that every value is one of them.
+  /// Also checks that the enumeration has these names, or the first of them, and that every value is one of
+  /// them.
   std::vector<std::uint8_t> read_enum(const std::string& path, const Shape& shape,
                                       const EnumNames& names) const;
   std::vector<std::string> read_strings(const std::string& path, std::size_t count) const;

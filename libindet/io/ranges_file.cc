@@ -21,7 +21,9 @@ namespace indet {
 namespace {
 
 /// In the order of the values of Outcome.
-const EnumNames kOutcomes = {"optimal", "unbounded", "imprecise", "failed", "not_requested"};
+const EnumNames kOutcomes = {"optimal", "unbounded", "imprecise", "failed", "not_requested", "enclosed"};
+/// Those of files without enclosed values, which versions before these read.
+const EnumNames kFirstOutcomes(kOutcomes.begin(), kOutcomes.end() - 1);
 
 constexpr std::array kStatuses = {PolytopeStatus::kBounded, PolytopeStatus::kUnbounded,
                                   PolytopeStatus::kPoint, PolytopeStatus::kEmpty};
@@ -68,7 +70,9 @@ class FieldWriter {
     if constexpr (std::is_same_v<Number, Outcome>) {
       std::vector<std::uint8_t> numbers;
       for (const Outcome outcome : values) numbers.push_back(static_cast<std::uint8_t>(outcome));
-      file_.write_enum(path_of(field), numbers, shape, kOutcomes, label);
+      const bool has_last =
+          std::any_of(values.begin(), values.end(), [](Outcome o) { return o == Outcome::kEnclosed; });
+      file_.write_enum(path_of(field), numbers, shape, has_last ? kOutcomes : kFirstOutcomes, label);
     } else {
       file_.write(path_of(field), values, shape, label);
     }
@@ -132,8 +136,8 @@ class FieldReader {
     // A file of all contacts does not say so, and one of an earlier version not by which method, or how.
     const bool may_lack = is(field.group, "/ranges") && is(field.name, "contacts");
     const bool may_be_older =
-        is(field.group, kWork) &&
-        (is(field.name, "method") || is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
+        is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
+                                   is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
     if (may_lack || may_be_older) return file_.has_attribute(field.group, field.name);
     return is_present(field.presence, ranges_, 1);
   }

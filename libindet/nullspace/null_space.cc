@@ -54,7 +54,30 @@ void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const 
   std::sort(result.independent_rows.begin(), result.independent_rows.end());
 }
 
+RankDecision decide_rank(const Eigen::SparseMatrix<double>& matrix, const SparseQr& qr, double scale) {
+  RankDecision decision;
+  decision.rank = qr.rank();
+  decision.nullity = static_cast<int>(matrix.cols()) - decision.rank;
+  decision.smallest_accepted = qr.smallest_accepted();
+  decision.largest_rejected = qr.dropped_norm();
+  decision.ambiguous = decision.smallest_accepted < tolerance::kRankAccept * scale ||
+                       decision.largest_rejected > tolerance::kNoise * scale;
+  decision.independent_rows = qr.independent_columns();
+  return decision;
+}
+
 }  // namespace
+
+RankDecision decide_rank(const Eigen::SparseMatrix<double>& matrix) {
+  if (matrix.rows() == 0 || matrix.cols() == 0) {
+    RankDecision none;
+    none.nullity = static_cast<int>(matrix.cols());
+    none.smallest_accepted = std::numeric_limits<double>::infinity();
+    return none;
+  }
+  const double scale = norm_bound(matrix);
+  return decide_rank(matrix, SparseQr(matrix.transpose(), tolerance::kRankReject * scale), scale);
+}
 
 NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& b) {
   NullSpace result;
@@ -69,17 +92,11 @@ NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Ei
   const double scale = norm_bound(matrix);
   result.qr = std::make_shared<SparseQr>(matrix.transpose(), tolerance::kRankReject * scale);
   const SparseQr& qr = *result.qr;
-  result.rank = qr.rank();
-  result.nullity = static_cast<int>(matrix.cols()) - result.rank;
-  result.smallest_accepted = qr.smallest_accepted();
-  result.largest_rejected = qr.dropped_norm();
-  result.ambiguous = result.smallest_accepted < tolerance::kRankAccept * scale ||
-                     result.largest_rejected > tolerance::kNoise * scale;
+  static_cast<RankDecision&>(result) = decide_rank(matrix, qr, scale);
   if (result.ambiguous && std::max(matrix.rows(), matrix.cols()) <= kDenseLimit) {
     decide_by_singular_values(matrix, b, scale, result);
   } else {
     result.basis = qr.left_kernel();
-    result.independent_rows = qr.independent_columns();
     result.particular = qr.solve_transposed(b);
     result.particular += qr.solve_transposed(b - matrix * result.particular);  // one step of refinement
     result.particular -= result.basis * (result.basis.transpose() * result.particular);

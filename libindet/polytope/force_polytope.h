@@ -14,6 +14,8 @@
 
 namespace indet {
 
+struct CentralPolytope;
+
 /// What the polytope of admissible contact states F [19] of a packing is.
 enum class PolytopeStatus : std::uint8_t {
   kBounded,    ///< More than one state, all forces limited.
@@ -45,10 +47,13 @@ struct ForcePolytope {
   PolytopeStatus status = PolytopeStatus::kEmpty;
   EquilibriumProblem natural;  ///< the problem with every contact as the scene has it
   EquilibriumProblem problem;  ///< the problem with closed edges removed
-  /// Of both; the same where no edge is closed.
+  /// Of both; the same where no edge is closed. Without kernel and particular solution where the polytope was
+  /// found by the barrier method.
   std::shared_ptr<const NullSpace> natural_null_space, null_space;
-  /// The problem over the rational numbers, with every contact as the scene has it.
+  /// The problem over the rational numbers, with every contact as the scene has it; where it was needed.
   std::shared_ptr<const exact::ContactProblem> exact;
+  /// The analytic centre, where it was asked for (central_polytope.h).
+  std::shared_ptr<const CentralPolytope> central;
   int dim = -1;                 ///< dim F; −1 if empty
   bool rank_ambiguous = false;  ///< of either null space
   /// Some decision (rank, emptiness, dimension, boundedness) lies within rounding: results may be wrong by
@@ -57,7 +62,7 @@ struct ForcePolytope {
   double interior_slack = 0;  ///< t of the interior point (mg): every x is at least this; capped at 1
   Eigen::VectorXd interior;   ///< x of that point (all edges of `problem`)
   Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `problem`)
-  std::vector<PolytopeBlock> blocks;
+  std::vector<PolytopeBlock> blocks;  ///< none where the polytope was found by the barrier method
   Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `problem`); empty if bounded
   /// If bounded or a point: λ ≥ 0 such that (1 + λ)·x is the same number everywhere in F, which bounds Σx.
   Eigen::VectorXd bounding_multipliers;

@@ -10,7 +10,9 @@
 
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
+#include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/force_polytope.h"
+#include "libindet/range/barrier_ranges.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/extremal_search.h"
@@ -18,6 +20,9 @@
 
 namespace indet {
 namespace {
+
+/// Contacts from which the barrier method is the faster one for values (docs/decisions/barrier-method.md).
+constexpr int kFewestForBarrier = 200;
 
 /// Adds the time since the last mark to a stage.
 class Stopwatch {
@@ -46,7 +51,7 @@ bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, con
 }
 
 /// How the search of a polytope is to be done.
-SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions& options) {
+SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions& options, Method method) {
   int largest = 0;
   for (const PolytopeBlock& block : polytope.blocks) largest = std::max(largest, block.view.dim());
   SearchOptions search;
@@ -54,7 +59,7 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   const bool has_bounds = !polytope.problem.bounds.empty();
   search.formulation =
       options.formulation.value_or(has_bounds ? Formulation::kDual : choose_formulation(largest));
-  search.method = options.method;
+  search.method = method;
   search.paper = options.paper;
   search.lp = options.lp;
   search.threads = options.threads;
@@ -68,12 +73,44 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   return search;
 }
 
+IntervalOptions interval_options(const AnalyzeOptions& options) {
+  IntervalOptions intervals;
+  intervals.gap = options.gap;
+  intervals.threads = options.threads;
+  if (options.progress) {
+    intervals.progress = [&options](std::int64_t settled, std::int64_t total) {
+      return options.progress({"force ranges", settled, total, {}});
+    };
+  }
+  return intervals;
+}
+
+/// The polytope in the form that the method works on. Where the barrier method finds no centre, the decision
+/// is left to linear programs, and so is the rest unless F is bounded after all.
+ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& options, MethodChoice& choice) {
+  if (choice.method != Method::kBarrier) return find_force_polytope(packing, options.lp);
+  if (auto central = find_central_polytope(packing)) return std::move(*central);
+  ForcePolytope polytope = find_force_polytope(packing, options.lp);
+  if (!add_centre(polytope)) {
+    choice.method = Method::kLp;
+    choice.reason = std::string("the barrier method is for polytopes with a centre, and this one is ") +
+                    (polytope.status == PolytopeStatus::kBounded ? "too thin" : to_string(polytope.status));
+  }
+  return polytope;
+}
+
 ContactRequest describe_request(const ContactChoice& choice, std::size_t requested) {
   const bool is_sample = choice.kind == ContactChoice::Kind::kSample;
   return {choice.kind, static_cast<int>(requested), is_sample ? static_cast<std::int64_t>(choice.seed) : -1};
 }
 
 }  // namespace
+
+MethodChoice choose_method(int contacts, bool wants_states) {
+  if (wants_states) return {Method::kLp, "extremal states are wanted"};
+  if (contacts < kFewestForBarrier) return {Method::kLp, "a small packing"};
+  return {Method::kBarrier, "a large packing, and no extremal states are wanted"};
+}
 
 Formulation choose_formulation(int dim) {
   constexpr int kCrossOver = 30;
@@ -89,11 +126,26 @@ AnalyzeOptions options_for(Accuracy accuracy) {
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
-  const ForcePolytope polytope = find_force_polytope(packing, options.lp);
-  stopwatch.mark("polytope");
+  MethodChoice choice = options.method ? MethodChoice{*options.method, ""}
+                                       : choose_method(packing.contact_count(), options.canonical_states);
   const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
-  const SearchOptions search = search_options(polytope, options);
-  const Extrema extrema = find_extrema(polytope, contacts, packing.simulated_forces(), search);
+  ForcePolytope polytope = find_polytope(packing, options, choice);
+  stopwatch.mark("polytope");
+  if (choice.method == Method::kBarrier) {
+    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, interval_options(options));
+    found.extrema.reason = std::move(choice.reason);
+    stopwatch.mark("ranges");
+    ForceRanges ranges =
+        assemble(packing, summarise(packing, polytope), describe_request(options.contacts, contacts.size()),
+                 found.extrema, found.enclosures);
+    ranges.reactions = std::move(found.reactions);
+    stopwatch.mark("measures");
+    ranges.seconds = std::move(seconds);
+    return ranges;
+  }
+  const SearchOptions search = search_options(polytope, options, choice.method);
+  Extrema extrema = find_extrema(polytope, contacts, packing.simulated_forces(), search);
+  extrema.reason = std::move(choice.reason);
   stopwatch.mark("ranges");
   seconds["states"] = extrema.state_seconds;
   seconds["ranges"] -= extrema.state_seconds;

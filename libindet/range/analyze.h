@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "libindet/base/progress.h"
 #include "libindet/lp/lp_solver.h"
@@ -20,7 +21,8 @@ enum class Accuracy : std::uint8_t {
 };
 
 struct AnalyzeOptions {
-  Method method = Method::kLp;
+  std::optional<Method> method;  ///< nothing: chosen by size and by what is asked for (choose_method)
+  double gap = 1e-6;             ///< of kBarrier: IntervalOptions::gap
   std::optional<Formulation>
       formulation;     ///< of kLp; nothing: chosen by size (docs/decisions/formulation.md)
   PaperOptions paper;  ///< of kPivotingPaper
@@ -39,6 +41,14 @@ AnalyzeOptions options_for(Accuracy accuracy);
 /// The ranges of all contact forces of a packing: from equilibrium problem to measures, each value with its
 /// residuals. Precondition: find_defect(packing) is empty. Throws Interrupted, LibraryError.
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options = {});
+
+/// The method for a packing with this number of contacts, and why: kBarrier where no extremal states are
+/// wanted and it is the faster one, else kLp (docs/decisions/barrier-method.md).
+struct MethodChoice {
+  Method method = Method::kLp;
+  std::string reason;
+};
+MethodChoice choose_method(int contacts, bool wants_states);
 
 /// The formulation that is fastest for a block of this dimension (docs/decisions/formulation.md).
 Formulation choose_formulation(int dim);

@@ -6,6 +6,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
+#include "libindet/range/barrier_ranges.h"
 
 namespace indet {
 namespace {
@@ -34,8 +35,8 @@ StateResiduals residuals_of(const Packing& packing, double unit, const Rows<doub
 }
 
 /// Value, enclosure and outcome of one objective.
-void certify_objective(const Extrema& extrema, const StateResiduals& residuals, Eigen::Index i, int column,
-                       Certified& result) {
+void certify_objective(const Extrema& extrema, const StateResiduals& residuals, double weight, Eigen::Index i,
+                       int column, Certified& result) {
   const int vertex = extrema.vertex(i, column);
   Outcome& outcome = result.outcome(i, column);
   double& value = result.value(i, column);
@@ -51,6 +52,10 @@ void certify_objective(const Extrema& extrema, const StateResiduals& residuals, 
     const bool is_precise = result.primal_residual(i, column) <= tolerance::kPrimalResidual &&
                             result.dual_residual(i, column) <= tolerance::kDualResidual;
     if (!is_precise) outcome = Outcome::kImprecise;
+  } else if (outcome == Outcome::kEnclosed) {
+    const EnclosedValue enclosed = enclosed_value(lower, upper, extrema.gap, weight);
+    value = enclosed.value;
+    outcome = enclosed.outcome;
   } else if (outcome == Outcome::kUnbounded || outcome == Outcome::kImprecise) {
     const bool is_maximum = column == kMaxR || column == kMaxT;
     lower = upper = value = is_maximum ? kInfinity : -kInfinity;
@@ -83,14 +88,16 @@ Certified certify(const Packing& packing, const ProblemSummary& problem, const E
           result.outcome(i, column) == Outcome::kNotRequested && problem.status != PolytopeStatus::kEmpty;
       if (is_left_out) continue;
       ++result.objectives;
-      certify_objective(extrema, residuals, i, column, result);
+      certify_objective(extrema, residuals, problem.force_unit, i, column, result);
       const Outcome outcome = result.outcome(i, column);
       if (outcome != Outcome::kFailed && outcome != Outcome::kNotRequested) {
+        // An interval has neither.
         result.worst_primal_residual =
-            std::max(result.worst_primal_residual, result.primal_residual(i, column));
-        result.worst_dual_residual = std::max(result.worst_dual_residual, result.dual_residual(i, column));
+            std::fmax(result.worst_primal_residual, result.primal_residual(i, column));
+        result.worst_dual_residual = std::fmax(result.worst_dual_residual, result.dual_residual(i, column));
       }
-      result.certified += outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded ? 1 : 0;
+      result.certified += is_certified(outcome) ? 1 : 0;
+      result.enclosed += outcome == Outcome::kEnclosed ? 1 : 0;
       result.unbounded += outcome == Outcome::kUnbounded ? 1 : 0;
       result.imprecise += outcome == Outcome::kImprecise ? 1 : 0;
       result.failed += outcome == Outcome::kFailed ? 1 : 0;

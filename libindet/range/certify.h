@@ -22,8 +22,8 @@ struct Certified {
   Table4<double> sensitivity;   ///< Enclosures::sensitivity.
   Table4<Outcome> outcome;
   Table4<double> primal_residual, dual_residual;
-  /// Objectives by outcome; `certified` are optimal or unbounded.
-  std::int64_t objectives = 0, certified = 0, unbounded = 0, imprecise = 0, failed = 0;
+  /// Objectives by outcome; `certified` are optimal, unbounded or enclosed.
+  std::int64_t objectives = 0, certified = 0, unbounded = 0, enclosed = 0, imprecise = 0, failed = 0;
   double worst_primal_residual = std::numeric_limits<double>::quiet_NaN();
   double worst_dual_residual = std::numeric_limits<double>::quiet_NaN();
   double residual = std::numeric_limits<double>::quiet_NaN();  ///< Largest ‖cF + w‖∞ over the stored states,
@@ -31,8 +31,9 @@ struct Certified {
 };
 
 /// Reads each value from its state, recomputes the primal residuals from the packing, lets go of enclosures
-/// that rest on a decision about F which is in doubt, and lets the residuals decide between `optimal` and
-/// `imprecise`; then counts outcomes. Where F is empty all objectives count, and none has an outcome.
+/// that rest on a decision about F which is in doubt, takes the middle of the interval where there is no
+/// state, and lets the residuals, or the width of the interval, decide between `optimal` and `imprecise`;
+/// then counts outcomes. Where F is empty all objectives count, and none has an outcome.
 Certified certify(const Packing& packing, const ProblemSummary& problem, const Extrema& extrema,
                   const Enclosures& enclosures);
 

@@ -10,6 +10,7 @@
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/dense/lu.h"
 #include "libindet/range/equation_bounds.h"
+#include "libindet/range/sensitivity.h"
 
 namespace indet {
 namespace {
@@ -294,23 +295,11 @@ class Encloser {
     return value - kWiden * (slack + state.share * std::abs(value - middle)) - kTiny;
   }
 
-  /// How far the value can move when every normal turns by up to one radian times a small factor.
   double sensitivity_of(const Eigen::VectorXd& y, Eigen::Index state) const {
     Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem_.equations());
     for (std::size_t k = 0; k < equations_.rows().size(); ++k)
       motion[equations_.rows()[k]] = y[static_cast<Eigen::Index>(k)];
-    const Eigen::Matrix2d compression = problem_.compression_of(motion);
-    double sum = 0;
-    for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
-      const ContactEnds& contact = problem_.contacts[i];
-      Vector2 relative = -compression * contact.branch;
-      if (contact.a >= 0) relative += motion.segment<2>(contact.a);
-      if (contact.b >= 0) relative -= motion.segment<2>(contact.b);
-      const double R = extrema_.states(state, 2 * static_cast<Eigen::Index>(i));
-      const double T = extrema_.states(state, 2 * static_cast<Eigen::Index>(i) + 1);
-      sum += std::abs(relative.dot(T * contact.normal - R * contact.tangent()));
-    }
-    return sum;
+    return sensitivity_to_normals(problem_, motion, SceneForces(extrema_.states.row(state).transpose()));
   }
 
   void enclose(Eigen::Index i, int column) {

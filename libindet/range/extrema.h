@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct SearchWork {
   std::string formulation;     ///< Of the linear programs, "" where a tableau did without.
   PaperOptions paper_options;  ///< Only of Method::kPivotingPaper.
   PaperWork paper;             ///< The same.
+  std::string reason;          ///< Why this method was taken, "" where it was asked for.
+  double gap = std::numeric_limits<double>::quiet_NaN();  ///< Of Method::kBarrier: what was asked for.
   std::int64_t solves = 0, pivots = 0;
   std::int64_t determined = 0;  ///< Objectives without a search: the same in every state.
 };

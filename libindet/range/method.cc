@@ -10,6 +10,8 @@ const char* to_string(Method method) {
       return "pivoting-paper";
     case Method::kPivotingTableau:
       return "pivoting-tableau";
+    case Method::kBarrier:
+      return "barrier";
   }
   return "?";
 }

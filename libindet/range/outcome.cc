@@ -14,6 +14,8 @@ const char* to_string(Outcome outcome) {
       return "failed";
     case Outcome::kNotRequested:
       return "not requested";
+    case Outcome::kEnclosed:
+      return "enclosed";
   }
   return "?";
 }

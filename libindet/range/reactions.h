@@ -43,7 +43,9 @@ struct Reactions {
   Table2<std::int32_t> ray;  ///< row of `rays`; −1: none
 
   Eigen::Index count() const { return body.size(); }
-  std::int64_t certified() const { return number_of(Outcome::kOptimal) + number_of(Outcome::kUnbounded); }
+  std::int64_t certified() const {
+    return number_of(Outcome::kOptimal) + number_of(Outcome::kUnbounded) + number_of(Outcome::kEnclosed);
+  }
   std::int64_t uncertain() const { return number_of(Outcome::kImprecise) + number_of(Outcome::kFailed); }
   std::int64_t number_of(Outcome one) const { return (outcome == one).count(); }
 };

@@ -50,6 +50,10 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.choice == ContactChoice::Kind::kSample;
     case Presence::kPaper:
       return ranges.method == Method::kPivotingPaper;
+    case Presence::kBarrier:
+      return ranges.method == Method::kBarrier;
+    case Presence::kReason:
+      return !ranges.reason.empty();
     case Presence::kRandom:
       return ranges.method == Method::kPivotingPaper &&
              ranges.paper_options.neighbour == NeighbourRule::kRandom;

@@ -37,6 +37,8 @@ enum class Presence : std::uint8_t {
   kSubset,    ///< where not all contacts were asked for
   kSample,    ///< where a sample of contacts was
   kPaper,     ///< where the method is kPivotingPaper
+  kBarrier,   ///< where the method is kBarrier
+  kReason,    ///< where the method was chosen by the program
   kRandom,    ///< where that goes to a neighbour by chance
   kWhereRows  ///< where the table has rows
 };
@@ -281,6 +283,15 @@ void visit_work(Part& r, Visit& visit) {
               FieldSource::kAnswer},
         r.determined);
   attribute("method", "how the extremal states were found", Presence::kAlways, r.method);
+  attribute("reason", "why this method was taken, where it was not asked for", Presence::kReason, r.reason);
+  const auto of_intervals = [&](const char* name, const char* meaning, FieldSource source, auto& value) {
+    visit(Field{"/equilibrium", name, "1", meaning, source, Extent::kOne, Extent::kOne, Presence::kBarrier},
+          value);
+  };
+  of_intervals("gap", "largest width of an enclosed value, relative to max(1 mg, |value|)",
+               FieldSource::kProblem, r.gap);
+  of_intervals("enclosed", "certified values that are known to such an interval", FieldSource::kAnswer,
+               r.enclosed);
   attribute("formulation", "of the linear programs, empty where there were none", Presence::kAlways,
             r.formulation);
   attribute("solves", "searches for an optimum", Presence::kAlways, r.solves);

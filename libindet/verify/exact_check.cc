@@ -258,7 +258,7 @@ class Check {
     const auto [i, column] = answer.id;
     const double stored = ranges_.value(i, column);
     const Outcome outcome = ranges_.outcome(i, column);
-    const bool certified = outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded;
+    const bool certified = is_certified(outcome);
     const std::string place = fmt::format("contact {} {}", i, to_string(static_cast<Column>(column)));
     report_.pivots += answer.optimum.pivots;
     Proof& proof = report_.proof(i, column);

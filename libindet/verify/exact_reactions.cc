@@ -110,8 +110,7 @@ class ReactionProver {
     const double stored = r_.value(k, end);
     const bool as_stored = optimum.pivots == 0 && starts_from_stored(k, end);
     const Proof agreed = as_stored ? Proof::kProven : Proof::kRepaired;
-    const bool certified =
-        r_.outcome(k, end) == Outcome::kOptimal || r_.outcome(k, end) == Outcome::kUnbounded;
+    const bool certified = is_certified(r_.outcome(k, end));
     Proof proof = Proof::kUndecided;
     result_.pivots += optimum.pivots;
     if (optimum.verdict == Verdict::kOptimal) {

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "libindet/barrier/analytic_centre.h"
+#include "libindet/barrier/block_structure.h"
+#include "libindet/barrier/verified_equations.h"
+#include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+
+namespace indet {
+
+/// The analytic centre of a bounded polytope that is full-dimensional in the edges of its problem, and what
+/// it proves: all that the barrier method works on. No matrix in it is dense.
+struct CentralPolytope {
+  /// `rows`: independent equations of the problem that the others follow from.
+  CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows)
+      : structure(problem, rows),
+        cholesky(structure),
+        centre(barrier::find_analytic_centre(structure, cholesky)) {
+    if (centre.found) equations.emplace(problem, structure, centre);
+  }
+  CentralPolytope(const CentralPolytope&) = delete;
+  CentralPolytope& operator=(const CentralPolytope&) = delete;
+
+  /// The centre is found and proven: the rows are independent, and the polytope is bounded and has an
+  /// interior.
+  bool is_proven() const { return equations && equations->is_proven(); }
+
+  barrier::BlockStructure structure;
+  barrier::BlockCholesky cholesky;  ///< for whoever needs a factor; left over from the search
+  barrier::AnalyticCentre centre;
+  std::optional<barrier::VerifiedEquations> equations;
+};
+
+/// The polytope of a packing by the barrier method alone, where that proves all there is to decide: it is
+/// bounded, no edge is closed, and the rank is certain. Nothing otherwise, and find_force_polytope has to
+/// decide. Precondition: find_defect(packing) is empty.
+std::optional<ForcePolytope> find_central_polytope(const Packing& packing);
+
+/// Adds the centre to a polytope that find_force_polytope has found. Returns whether it is there: F is
+/// bounded, and the centre proven.
+bool add_centre(ForcePolytope& polytope);
+
+}  // namespace indet

@@ -1,0 +1,177 @@
+#include "libindet/range/barrier_ranges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libindet/base/constants.h"
+#include "libindet/base/rounding_bounds.h"
+
+namespace indet {
+namespace {
+
+/// An objective and where its result goes.
+struct Target {
+  bool is_reaction = false;
+  Eigen::Index row = 0;
+  int column = 0;
+  double sign = 1;  ///< −1: a maximum, of which the objective is the least value with the other sign
+};
+
+class BarrierSearch {
+ public:
+  BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
+                const IntervalOptions& options)
+      : polytope_(polytope),
+        problem_(polytope.problem),
+        contacts_(contacts),
+        options_(options),
+        sums_(reaction_sums(packing)) {
+    prepare();
+  }
+
+  BarrierRanges run() {
+    list_contacts();
+    list_reactions();
+    const std::vector<ValueInterval> intervals = enclose_least_values(polytope_, objectives_, options_);
+    for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], intervals[k]);
+    finish_reactions();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare() {
+    const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
+    Extrema& extrema = result_.extrema;
+    extrema.method = Method::kBarrier;
+    extrema.claim.setConstant(count, 4, Outcome::kNotRequested);
+    extrema.vertex.setConstant(count, 4, -1);
+    extrema.unique.setZero(count, 4);
+    extrema.ray.setConstant(count, 4, -1);
+    for (auto* table : {&extrema.dual_residual, &extrema.ray_residual}) table->setConstant(count, 4, kNaN);
+    extrema.states.resize(0, 2 * count);
+    extrema.rays.resize(0, 2 * count);
+    extrema.active.resize(0, polytope_.dim);
+    extrema.gap = options_.gap;
+    Enclosures& enclosures = result_.enclosures;
+    for (auto* table : {&enclosures.lower, &enclosures.upper, &enclosures.sensitivity})
+      table->setConstant(count, 4, kNaN);
+    enclosures.proven = !polytope_.doubtful;
+    Reactions& reactions = result_.reactions;
+    const auto sums = static_cast<Eigen::Index>(sums_.size());
+    reactions.body.resize(sums);
+    reactions.component.resize(sums);
+    for (auto* table : {&reactions.value, &reactions.lower, &reactions.upper})
+      table->setConstant(sums, 2, kNaN);
+    reactions.outcome.setConstant(sums, 2, Outcome::kFailed);
+    reactions.vertex.setConstant(sums, 2, -1);
+    reactions.ray.setConstant(sums, 2, -1);
+    reactions.states.resize(0, 2 * count);
+    reactions.rays.resize(0, 2 * count);
+  }
+
+  void add(const Target& target, barrier::Objective objective) {
+    std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
+    result_.extrema.determined += objective.empty() && !target.is_reaction ? 1 : 0;
+    if (objective.empty()) return store(target, {0, 0, 0, 0});
+    for (auto& [column, weight] : objective) weight *= target.sign;
+    targets_.push_back(target);
+    objectives_.push_back(std::move(objective));
+  }
+
+  void list_contacts() {
+    const std::vector<int> first = problem_.first_unknowns();
+    for (const int i : contacts_) {
+      for (int column = 0; column < 4; ++column) {
+        result_.extrema.claim(i, column) = Outcome::kEnclosed;
+        barrier::Objective objective;
+        const int begin = first[static_cast<std::size_t>(i)];
+        for (int k = begin; k >= 0 && k < problem_.unknowns(); ++k) {
+          const Edge& edge = problem_.edge(k);
+          if (edge.is_slack() || edge.contact.value() != i) break;
+          objective.emplace_back(k, column >= kMinT ? edge.T : edge.R);
+        }
+        add({false, i, column, column == kMaxR || column == kMaxT ? -1.0 : 1.0}, std::move(objective));
+      }
+    }
+  }
+
+  void list_reactions() {
+    for (std::size_t k = 0; k < sums_.size(); ++k) {
+      const ReactionSum& sum = sums_[k];
+      const auto row = static_cast<Eigen::Index>(k);
+      result_.reactions.body[row] = sum.body.code();
+      result_.reactions.component[row] = sum.component;
+      barrier::Objective objective;
+      for (int column = 0; column < problem_.unknowns(); ++column) {
+        const Edge& edge = problem_.edge(column);
+        if (edge.is_slack()) continue;
+        const Eigen::Index at = 2 * static_cast<Eigen::Index>(edge.contact.value());
+        objective.emplace_back(column, sum.coefficients[at] * edge.R + sum.coefficients[at + 1] * edge.T);
+      }
+      for (const int end : {0, 1}) add({true, row, end, end == 0 ? 1.0 : -1.0}, objective);
+    }
+  }
+
+  void store(const Target& target, const ValueInterval& interval) {
+    // Multiplying by the unit rounds outwards.
+    const double unit = problem_.units.internal_in_scene();
+    const auto scaled = [&](double bound, double direction) {
+      return std::isinf(bound) ? bound
+                               : bound * unit + direction * unit * (4 * kRoundoff * std::abs(bound) + kTiny);
+    };
+    double lower = interval.lower == 0 && interval.upper == 0 ? 0 : scaled(interval.lower, -1);
+    double upper = interval.lower == 0 && interval.upper == 0 ? 0 : scaled(interval.upper, 1);
+    if (target.sign < 0) {
+      std::swap(lower, upper);
+      lower = -lower;
+      upper = -upper;
+    }
+    if (target.is_reaction) {
+      result_.reactions.lower(target.row, target.column) = lower;
+      result_.reactions.upper(target.row, target.column) = upper;
+    } else {
+      result_.enclosures.lower(target.row, target.column) = lower;
+      result_.enclosures.upper(target.row, target.column) = upper;
+      result_.enclosures.sensitivity(target.row, target.column) = interval.sensitivity;
+    }
+    result_.extrema.pivots += interval.iterations;
+    result_.extrema.solves += interval.iterations > 0 ? 1 : 0;
+  }
+
+  void finish_reactions() {
+    Reactions& r = result_.reactions;
+    for (Eigen::Index row = 0; row < r.count(); ++row) {
+      for (const int end : {0, 1}) {
+        const auto [value, outcome] = enclosed_value(r.lower(row, end), r.upper(row, end), options_.gap,
+                                                     problem_.units.weight_in_scene());
+        r.value(row, end) = value;
+        r.outcome(row, end) = result_.enclosures.proven ? outcome : Outcome::kImprecise;
+      }
+    }
+  }
+
+  const ForcePolytope& polytope_;
+  const EquilibriumProblem& problem_;
+  const std::vector<int>& contacts_;
+  const IntervalOptions& options_;
+  std::vector<ReactionSum> sums_;
+  std::vector<Target> targets_;
+  std::vector<barrier::Objective> objectives_;
+  BarrierRanges result_;
+};
+
+}  // namespace
+
+BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
+                                  const std::vector<int>& contacts, const IntervalOptions& options) {
+  return BarrierSearch(packing, polytope, contacts, options).run();
+}
+
+EnclosedValue enclosed_value(double lower, double upper, double gap, double weight) {
+  if (!std::isfinite(lower) || !std::isfinite(upper)) return {kNaN, Outcome::kFailed};
+  const double value = lower + (upper - lower) / 2;
+  const double size = std::max(weight, std::abs(value));
+  return {value, upper - lower <= gap * size ? Outcome::kEnclosed : Outcome::kImprecise};
+}
+
+}  // namespace indet

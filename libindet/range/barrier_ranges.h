@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/range/enclosure.h"
+#include "libindet/range/extrema.h"
+#include "libindet/range/interval_search.h"
+#include "libindet/range/reactions.h"
+
+namespace indet {
+
+/// The second and third stage of an analysis by the barrier method: intervals of all values that were asked
+/// for, without states.
+struct BarrierRanges {
+  Extrema extrema;        ///< claims kEnclosed, no vertex
+  Enclosures enclosures;  ///< their intervals
+  Reactions reactions;    ///< complete
+};
+
+/// `contacts`: ascending. A value that is 0 in all states, because no edge of its contact is open, needs no
+/// search. Precondition: polytope.central. Throws Interrupted.
+BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
+                                  const std::vector<int>& contacts, const IntervalOptions& options);
+
+/// What an interval is as a result: its middle is the value; it is enclosed if it is no wider than asked for.
+struct EnclosedValue {
+  double value = 0;
+  Outcome outcome = Outcome::kFailed;
+};
+/// In the scene's units; `weight`: 1 mg in them.
+EnclosedValue enclosed_value(double lower, double upper, double gap, double weight);
+
+}  // namespace indet

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "libindet/barrier/lock_step.h"
+#include "libindet/polytope/force_polytope.h"
+
+namespace indet {
+
+struct IntervalOptions {
+  /// A value is to be known to an interval of this width, relative to max(1 mg, |value|).
+  double gap = 1e-6;
+  int threads = 1;  ///< the results do not depend on it
+  /// Called on the calling thread now and then; false stops the search (Interrupted).
+  std::function<bool(std::int64_t settled, std::int64_t total)> progress;
+};
+
+/// What is known of a least value, in the unit of the problem.
+struct ValueInterval {
+  double lower = 0, upper = 0;  ///< rigorous; infinite where nothing is proven
+  double sensitivity = 0;       ///< sensitivity_to_normals, in the scene's unit of force
+  int iterations = 0;
+};
+
+/// Encloses the least values of objectives on the edges' strengths, by the barrier method: every interval is
+/// proven (barrier::VerifiedEquations), whatever the iteration did. One that comes out wider than asked for
+/// is searched once more with a smaller gap. Precondition: polytope.central.
+std::vector<ValueInterval> enclose_least_values(const ForcePolytope& polytope,
+                                                std::span<const barrier::Objective> objectives,
+                                                const IntervalOptions& options);
+
+}  // namespace indet
