@@ -51,8 +51,7 @@ class ReactionCheck {
     const Outcome outcome = r_.outcome(k, end);
     const double value = r_.value(k, end);
     const int vertex = r_.vertex(k, end);
-    const bool has_value =
-        outcome == Outcome::kOptimal || outcome == Outcome::kImprecise || outcome == Outcome::kUnbounded;
+    const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
     compare_.require(has_value != std::isnan(value), "{}: {}, but {} is stored", place, to_string(outcome),
                      value);
     if (std::isnan(value)) return;
@@ -67,6 +66,10 @@ class ReactionCheck {
         compare_.require(sum.coefficients.dot(r_.rays.row(ray).transpose()) * value > 0,
                          "{}: it does not grow along its ray {}", place, ray);
       }
+      return;
+    }
+    if (ranges_.method == Method::kBarrier) {  // enclosed_check.h
+      compare_.require(vertex < 0, "{}: an interval with a state", place);
       return;
     }
     if (!compare_.require(vertex == next_state_++, "{}: state {} is not its own", place, vertex)) return;

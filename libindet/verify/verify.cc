@@ -12,6 +12,7 @@
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/cell_motion_check.h"
 #include "libindet/verify/comparisons.h"
+#include "libindet/verify/enclosed_check.h"
 #include "libindet/verify/estimate_check.h"
 #include "libindet/verify/needed_equations.h"
 #include "libindet/verify/reactions_check.h"
@@ -33,6 +34,7 @@ class Verifier {
     check_objectives();
     check_measures();
     check_counts();
+    check_enclosed(packing_, ranges_, progress_, compare_);
     check_hull();
     name_the_rest();
     check_reactions(packing_, ranges_, problem_, compare_);
@@ -175,6 +177,10 @@ class Verifier {
                        to_string(outcome));
       return;
     }
+    if (ranges_.method == Method::kBarrier) {
+      compare_.require(vertex < 0, "{}: an interval with a state", place);
+      return;
+    }
     if (!compare_.require(vertex >= 0 && vertex < ranges_.states.rows(), "{}: there is no state {}", place,
                           vertex))
       return;
@@ -230,18 +236,18 @@ class Verifier {
   }
 
   void check_counts() {
-    std::int64_t counts[5] = {};
+    std::int64_t counts[6] = {};
     for (const Outcome outcome : ranges_.outcome.reshaped()) ++counts[static_cast<int>(outcome)];
     compare_.equal_count(ranges_.objectives,
                          4 * std::int64_t{ranges_.status == PolytopeStatus::kEmpty ? packing_.contact_count()
                                                                                    : ranges_.requested},
                          "objectives");
     compare_.equal_count(ranges_.unbounded, counts[static_cast<int>(Outcome::kUnbounded)], "unbounded");
-    compare_.equal_count(ranges_.certified, counts[static_cast<int>(Outcome::kOptimal)] + ranges_.unbounded,
-                         "certified");
+    compare_.equal_count(ranges_.enclosed, counts[static_cast<int>(Outcome::kEnclosed)], "enclosed");
+    const auto certain = counts[static_cast<int>(Outcome::kOptimal)] + ranges_.unbounded + ranges_.enclosed;
+    compare_.equal_count(ranges_.certified, certain, "certified");
     compare_.equal_count(ranges_.imprecise, counts[static_cast<int>(Outcome::kImprecise)], "imprecise");
     compare_.equal_count(ranges_.failed, counts[static_cast<int>(Outcome::kFailed)], "failed");
-    const auto certain = counts[static_cast<int>(Outcome::kOptimal)] + ranges_.unbounded;
     const auto also = ranges_.reactions.certified();
     compare_.require(!ranges_.doubtful || certain + also == 0,
                      "doubtful: yet {} objectives and {} ends of reactions are certified", certain, also);
