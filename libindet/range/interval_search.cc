@@ -30,11 +30,12 @@ class IntervalSearch {
   std::vector<ValueInterval> run() {
     std::vector<std::size_t> wanted(objectives_.size());
     std::iota(wanted.begin(), wanted.end(), std::size_t{0});
-    // Half of the width is left for what the repair and the proofs cost.
-    search(wanted, 0.5);
-    std::erase_if(wanted, [&](std::size_t k) { return is_narrow(intervals_[k]); });
-    settled_ -= static_cast<std::int64_t>(wanted.size());
-    search(wanted, 0.01);
+    // A part of the width is left for what the repair and the proofs cost.
+    for (const auto& [share, least_aim] : {std::pair(0.5, 1e-8), {0.5, 0.1}, {0.25, 0.3}}) {
+      search(wanted, share, least_aim);
+      std::erase_if(wanted, [&](std::size_t k) { return is_narrow(intervals_[k]); });
+      settled_ -= static_cast<std::int64_t>(wanted.size());
+    }
     return std::move(intervals_);
   }
 
@@ -45,12 +46,13 @@ class IntervalSearch {
   }
 
   /// Searches these objectives on all threads, the calling one among them.
-  void search(const std::vector<std::size_t>& wanted, double share) {
+  void search(const std::vector<std::size_t>& wanted, double share, double least_aim) {
     if (wanted.empty()) return;
     std::atomic<std::size_t> next = 0;
     barrier::LockStepOptions lock_step;
     lock_step.gap = share * options_.gap;
     lock_step.least = least_;
+    lock_step.least_aim = least_aim;
     const auto run = [&](bool is_calling_thread) {
       barrier::minimise_in_lock_step(
           central_.structure, central_.centre, lock_step,

@@ -27,7 +27,7 @@ struct ValueInterval {
 
 /// Encloses the least values of objectives on the edges' strengths, by the barrier method: every interval is
 /// proven (barrier::VerifiedEquations), whatever the iteration did. One that comes out wider than asked for
-/// is searched once more with a smaller gap. Precondition: polytope.central.
+/// is searched again with more care, twice at most. Precondition: polytope.central.
 std::vector<ValueInterval> enclose_least_values(const ForcePolytope& polytope,
                                                 std::span<const barrier::Objective> objectives,
                                                 const IntervalOptions& options);
