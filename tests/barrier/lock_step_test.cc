@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/random.h"
 #include "libindet/range/analyze.h"
 #include "tests/barrier/runs.h"
@@ -17,7 +18,6 @@ namespace {
 
 using test::minimise;
 using test::packings;
-using test::Run;
 using test::StrengthSet;
 using test::vector;
 
@@ -25,7 +25,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() &&
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
-bool same_bits(const Run& a, const Run& b) {
+bool same_bits(const test::Run& a, const test::Run& b) {
   return a.finished && b.finished && same_bits(a.x, b.x) && same_bits(a.y, b.y) &&
          a.iterations == b.iterations && a.converged == b.converged;
 }
@@ -56,10 +56,10 @@ TEST(LockStep, FindsWhatLinearProgramsFind) {
     for (const double gap : {1e-2, 1e-4, 1e-6, 1e-8}) {
       LockStepOptions options;
       options.gap = gap;
-      const std::vector<Run> runs = minimise(set, centre, objectives, in_order(objectives.size()), options);
+      const std::vector<test::Run> runs = minimise(set, centre, objectives, in_order(objectives.size()), options);
       for (std::size_t k = 0; k < runs.size(); ++k) {
         SCOPED_TRACE(testing::Message() << "gap " << gap << ", contact " << k / 4 << ", column " << k % 4);
-        const Run& run = runs[k];
+        const test::Run& run = runs[k];
         ASSERT_TRUE(run.finished);
         EXPECT_TRUE(run.converged);
         const double sign = k % 2 == 0 ? 1 : -1;  // minima, maxima
@@ -85,10 +85,10 @@ TEST(LockStep, GivesTheSameBitsForRegistersOfAnyWidth) {
     const AnalyticCentre centre = find_analytic_centre(set.structure, set.cholesky);
     const std::vector<Objective> objectives = set.objectives();
     LockStepOptions options;
-    const std::vector<Run> widest = minimise(set, centre, objectives, in_order(objectives.size()), options);
+    const std::vector<test::Run> widest = minimise(set, centre, objectives, in_order(objectives.size()), options);
     for (const int bits : {128, 256, 512, 1024, 0}) {
       options.vector_bits = bits;
-      const std::vector<Run> runs = minimise(set, centre, objectives, in_order(objectives.size()), options);
+      const std::vector<test::Run> runs = minimise(set, centre, objectives, in_order(objectives.size()), options);
       for (std::size_t k = 0; k < runs.size(); ++k)
         EXPECT_TRUE(same_bits(runs[k], widest[k])) << bits << ", " << k;
     }
@@ -102,7 +102,7 @@ TEST(LockStep, GivesTheSameBitsInAnyOrderAndCompany) {
     StrengthSet set(packing);
     const AnalyticCentre centre = find_analytic_centre(set.structure, set.cholesky);
     const std::vector<Objective> objectives = set.objectives();
-    const std::vector<Run> right = minimise(set, centre, objectives, in_order(objectives.size()), {});
+    const std::vector<test::Run> right = minimise(set, centre, objectives, in_order(objectives.size()), {});
     for (const int bits : {128, 256, 512}) {
       LockStepOptions options;
       options.vector_bits = bits;
@@ -110,7 +110,7 @@ TEST(LockStep, GivesTheSameBitsInAnyOrderAndCompany) {
         std::vector<std::size_t> order = in_order(objectives.size());
         for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
         if (repeat > 0) order.resize(1 + random.below(std::min<std::size_t>(order.size(), 11)));
-        const std::vector<Run> runs = minimise(set, centre, objectives, order, options);
+        const std::vector<test::Run> runs = minimise(set, centre, objectives, order, options);
         for (const std::size_t k : order) EXPECT_TRUE(same_bits(runs[k], right[k])) << bits << ", " << k;
       }
       const std::size_t alone = random.below(objectives.size());
@@ -126,8 +126,8 @@ TEST(LockStep, DoesNotSufferFromBadCompany) {
   const AnalyticCentre centre = find_analytic_centre(set.structure, set.cholesky);
   std::vector<Objective> objectives = set.objectives();
   const std::size_t good = objectives.size();
-  const std::vector<Run> right = minimise(set, centre, objectives, in_order(good), {});
-  const double bad[] = {1e308, -1e308, INFINITY, NAN, 1e-300, 1e-320};
+  const std::vector<test::Run> right = minimise(set, centre, objectives, in_order(good), {});
+  const double bad[] = {1e308, -1e308, kInfinity, kNaN, 1e-300, 1e-320};
   for (const double weight : bad) objectives.push_back({{0, weight}, {3, -weight}});
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < good; ++k) {
@@ -137,7 +137,7 @@ TEST(LockStep, DoesNotSufferFromBadCompany) {
   for (const int bits : {128, 512}) {
     LockStepOptions options;
     options.vector_bits = bits;
-    const std::vector<Run> runs = minimise(set, centre, objectives, order, options);
+    const std::vector<test::Run> runs = minimise(set, centre, objectives, order, options);
     for (std::size_t k = 0; k < good; ++k) EXPECT_TRUE(same_bits(runs[k], right[k])) << bits << ", " << k;
     for (std::size_t k = good; k < good + 4; ++k) {
       EXPECT_TRUE(runs[k].finished);
@@ -175,7 +175,7 @@ TEST(LockStep, OfNoObjectivesDoesNothing) {
   StrengthSet set(zoo::wedge(0.5, 0.4));
   const AnalyticCentre centre = find_analytic_centre(set.structure, set.cholesky);
   EXPECT_TRUE(minimise(set, centre, {}, {}, {}).empty());
-  const Run run = minimise(set, centre, {{}}, {0}, {}).front();  // the sum of nothing is 0
+  const test::Run run = minimise(set, centre, {{}}, {0}, {}).front();  // the sum of nothing is 0
   EXPECT_TRUE(run.converged);
 }
 
@@ -184,7 +184,7 @@ TEST(LockStep, OfAnEmptySceneEnds) {
   nothing.named_force_unit = 1;
   StrengthSet set(nothing);
   const AnalyticCentre centre = find_analytic_centre(set.structure, set.cholesky);
-  const Run run = minimise(set, centre, {{}}, {0}, {}).front();
+  const test::Run run = minimise(set, centre, {{}}, {0}, {}).front();
   EXPECT_TRUE(run.finished);
   EXPECT_TRUE(run.converged);
 }
@@ -201,9 +201,9 @@ TEST(LockStep, TellsWhatItDidNotReach) {
   LockStepOptions hasty;
   hasty.most_iterations = 2;
   const std::vector<std::size_t> order = in_order(objectives.size());
-  const std::vector<Run> right = minimise(set, centre, objectives, order, close);
-  const std::vector<Run> asked_too_much = minimise(set, centre, objectives, order, exact);
-  const std::vector<Run> stopped = minimise(set, centre, objectives, order, hasty);
+  const std::vector<test::Run> right = minimise(set, centre, objectives, order, close);
+  const std::vector<test::Run> asked_too_much = minimise(set, centre, objectives, order, exact);
+  const std::vector<test::Run> stopped = minimise(set, centre, objectives, order, hasty);
   for (const std::size_t k : order) {
     EXPECT_TRUE(right[k].converged);
     EXPECT_FALSE(asked_too_much[k].converged);
@@ -222,7 +222,7 @@ TEST(LockStep, ReachesASmallGapInFewIterations) {
   const std::vector<Objective> objectives = set.objectives();
   LockStepOptions options;
   options.gap = 1e-8;
-  for (const Run& run : minimise(set, centre, objectives, in_order(objectives.size()), options)) {
+  for (const test::Run& run : minimise(set, centre, objectives, in_order(objectives.size()), options)) {
     EXPECT_TRUE(run.converged);
     EXPECT_LE(run.iterations, 30);
   }

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/random.h"
 #include "libindet/packing/validate.h"
 #include "libindet/range/analyze.h"
@@ -25,7 +26,7 @@ namespace {
 using extremes::Scene;
 using test::minimise;
 using test::packings;
-using test::Run;
+
 using test::StrengthSet;
 using test::vector;
 
@@ -63,7 +64,7 @@ TEST(VerifiedEquations, ProveNothingOfDependentRows) {
     EXPECT_FALSE(verified.is_proven());
     EXPECT_EQ(verified.smallest_singular_value(), 0);
     const Objective objective = {{0, 1.0}};
-    EXPECT_EQ(verified.enclose(objective, verified.repaired(centre.x), centre.y).upper, INFINITY);
+    EXPECT_EQ(verified.enclose(objective, verified.repaired(centre.x), centre.y).upper, kInfinity);
   }
 }
 
@@ -87,7 +88,7 @@ TEST(VerifiedEquations, RepairBringsAnyPointNearASolution) {
 /// The bounds of one objective for a number of pairs (x, y), sensible ones and absurd ones.
 std::vector<ValueBounds> bounds_for_many_points(const StrengthSet& set, const AnalyticCentre& centre,
                                                 const VerifiedEquations& verified, const Objective& objective,
-                                                const Run& run, Random& random) {
+                                                const test::Run& run, Random& random) {
   std::vector<ValueBounds> all;
   const auto add = [&](const std::vector<double>& x, const std::vector<double>& y) {
     all.push_back(verified.enclose(objective, verified.repaired(x), y));
@@ -112,7 +113,7 @@ std::vector<ValueBounds> bounds_for_many_points(const StrengthSet& set, const An
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = run.x[k] + away * (run.x[k] - centre.x[k]);
   for (std::size_t i = 0; i < y.size(); ++i) y[i] = -2 * run.y[i];
   add(x, y);
-  for (const double odd : {1e300, -1e300, 1e-300, INFINITY, -INFINITY, NAN}) {
+  for (const double odd : {1e300, -1e300, 1e-300, kInfinity, -kInfinity, kNaN}) {
     x = run.x;
     y = run.y;
     if (!x.empty()) x[random.below(x.size())] = odd;
@@ -179,7 +180,7 @@ void check_scene(const std::string& name, const Packing& packing, std::uint64_t 
     if (largest) {
       EXPECT_TRUE(is_above(bound, *largest / times, unit)) << "strength " << k << ": " << bound;
     } else {
-      EXPECT_EQ(bound, INFINITY) << "strength " << k;
+      EXPECT_EQ(bound, kInfinity) << "strength " << k;
     }
   }
 
@@ -189,7 +190,7 @@ void check_scene(const std::string& name, const Packing& packing, std::uint64_t 
   std::iota(order.begin(), order.end(), 0U);
   LockStepOptions options;
   options.gap = 1e-8;
-  const std::vector<Run> runs = minimise(set, centre, objectives, order, options);
+  const std::vector<test::Run> runs = minimise(set, centre, objectives, order, options);
   for (const std::size_t k : order) {
     const int sign = k % 2 == 0 ? -1 : 1;
     std::optional<mpq_class> value = exact.extremum(2 * static_cast<int>(k / 4) + (k % 4 < 2 ? 0 : 1), sign);
@@ -201,7 +202,7 @@ void check_scene(const std::string& name, const Packing& packing, std::uint64_t 
       const ValueBounds& bounds = all[i];
       ++tally.bounds;
       if (!value) {
-        EXPECT_EQ(bounds.lower, -INFINITY) << "unbounded; contact " << k / 4 << ", column " << k % 4;
+        EXPECT_EQ(bounds.lower, -kInfinity) << "unbounded; contact " << k / 4 << ", column " << k % 4;
         continue;
       }
       EXPECT_TRUE(is_below(bounds.lower, *value, unit))
@@ -334,7 +335,7 @@ TEST(VerifiedBounds, HoldOfBoundedForcesAndImposedStress) {
     const std::vector<Objective> objectives = set.objectives();
     std::vector<std::size_t> order(objectives.size());
     std::iota(order.begin(), order.end(), 0U);
-    const std::vector<Run> runs = minimise(set, centre, objectives, order, {});
+    const std::vector<test::Run> runs = minimise(set, centre, objectives, order, {});
     for (const std::size_t k : order) {
       const auto row = static_cast<Eigen::Index>(k / 4);
       const auto column = static_cast<Eigen::Index>(k % 4);
