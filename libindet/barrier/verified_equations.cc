@@ -63,11 +63,14 @@ VerifiedEquations::VerifiedEquations(const EquilibriumProblem& problem, const Bl
       centre_(centre),
       widen_(kWiden + 4 * kRoundoff * static_cast<double>(structure.rows() + structure.columns())),
       cholesky_(structure) {
+  // A disk that touches an image of itself has the torques of both ends in one entry.
+  const bool has_sums = std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                                    [](const ContactEnds& ends) { return ends.a >= 0 && ends.a == ends.b; });
   for (const int row : structure.equation_of_place()) {
     const EquilibriumRow& equation = problem.rows[static_cast<std::size_t>(row)];
     // Entries are stored doubles or rounded a few times; those of stress are f·l/L with |f| ≤ √2, |l|/L ≤
-    // 3/2.
-    entry_error_.push_back((equation.body.is_cell() ? 24 : 8) * kRoundoff);
+    // 3/2, levers up to two radii.
+    entry_error_.push_back((equation.body.is_cell() || has_sums ? 24 : 8) * kRoundoff);
     load_error_.push_back(6 * kRoundoff * equation.load / equation.unit + kTiny);
   }
   row_terms_.assign(entry_error_.size(), 0);
