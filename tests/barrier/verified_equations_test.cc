@@ -9,6 +9,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "libindet/base/constants.h"
 #include "libindet/base/random.h"
@@ -86,7 +87,7 @@ TEST(VerifiedEquations, RepairBringsAnyPointNearASolution) {
 }
 
 /// The bounds of one objective for a number of pairs (x, y), sensible ones and absurd ones.
-std::vector<ValueBounds> bounds_for_many_points(const StrengthSet& set, const AnalyticCentre& centre,
+std::vector<ValueBounds> bounds_for_many_points(const AnalyticCentre& centre,
                                                 const VerifiedEquations& verified, const Objective& objective,
                                                 const test::Run& run, Random& random) {
   std::vector<ValueBounds> all;
@@ -120,7 +121,6 @@ std::vector<ValueBounds> bounds_for_many_points(const StrengthSet& set, const An
     if (!y.empty()) y[random.below(y.size())] = odd;
     all.push_back(verified.enclose(objective, x, y));
   }
-  (void)set;
   return all;
 }
 
@@ -160,7 +160,9 @@ void check_scene(const std::string& name, const Packing& packing, std::uint64_t 
     EXPECT_FALSE(verified.is_proven() && set.structure.rows() == set.problem.equations()) << "it is empty";
     return;
   }
-  if (verified.is_proven()) EXPECT_GE(exact.rank(), set.structure.rows());
+  if (verified.is_proven()) {
+    EXPECT_GE(exact.rank(), set.structure.rows());
+  }
   const mpq_class unit(set.problem.units.internal_in_scene());
 
   // 2κμ x₊ = μR + T, 2κμ x₋ = μR − T, κ x = R without friction.
@@ -197,7 +199,7 @@ void check_scene(const std::string& name, const Packing& packing, std::uint64_t 
     if (value && sign > 0) value = -*value;
     ASSERT_TRUE(runs[k].finished);
     const std::vector<ValueBounds> all =
-        bounds_for_many_points(set, centre, verified, objectives[k], runs[k], random);
+        bounds_for_many_points(centre, verified, objectives[k], runs[k], random);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const ValueBounds& bounds = all[i];
       ++tally.bounds;
@@ -225,33 +227,27 @@ void expect_use(const Tally& tally, int scenes) {
   EXPECT_GE(tally.proven, scenes);
   EXPECT_GT(tally.bounds, 100 * tally.proven);
   EXPECT_GT(tally.tight, 0.9 * tally.objectives);
-  if (getenv("SHOW"))
-    printf("scenes %d proven %d bounds %d tight %d of %d\n", tally.scenes, tally.proven, tally.bounds,
-           tally.tight, tally.objectives);
 }
-
-int hunt(int usual) { return getenv("HUNT") ? atoi(getenv("HUNT")) : usual; }
-int hunt_from() { return getenv("FROM") ? atoi(getenv("FROM")) : 0; }
 
 TEST(VerifiedBounds, HoldOfFixedScenesAtExtremes) {
   Tally tally;
   for (const Scene& scene : extremes::fixed_scenes())
     check_scene(scene.kind + ", " + scene.name, scene.packing, 51, tally);
-  expect_use(tally, 10);
+  expect_use(tally, 200);
 }
 
 TEST(VerifiedBounds, HoldOfRandomScenesAtExtremes) {
   Tally tally;
-  for (int seed = hunt_from(); seed < hunt_from() + hunt(100); ++seed) {
+  for (int seed = 0; seed < 100; ++seed) {
     const Scene scene = extremes::random_scene(static_cast<std::uint64_t>(seed), 3);
     check_scene(scene.kind + ", " + scene.name, scene.packing, 52, tally);
   }
-  expect_use(tally, 10);
+  expect_use(tally, 15);
 }
 
 TEST(VerifiedBounds, HoldOfScenesWithLoadedWallsLeversAndFixedDisks) {
   Tally tally;
-  for (int seed = hunt_from(); seed < hunt_from() + hunt(100); ++seed) {
+  for (int seed = 0; seed < 100; ++seed) {
     const auto number = static_cast<std::uint64_t>(seed);
     Packing packing = extremes::random_scene(number, 3).packing;
     if (seed % 2 == 0) packing = zoo::with_fixed_disks(packing, number);
@@ -260,7 +256,7 @@ TEST(VerifiedBounds, HoldOfScenesWithLoadedWallsLeversAndFixedDisks) {
     if (find_defect(packing)) continue;
     check_scene("seed " + std::to_string(seed), packing, 53, tally);
   }
-  expect_use(tally, 5);
+  expect_use(tally, 20);
 }
 
 /// Columns, which stand, with everything about them driven to extremes.
@@ -310,12 +306,12 @@ Packing extreme_column(std::uint64_t seed) {
 
 TEST(VerifiedBounds, HoldOfColumnsDrivenToExtremes) {
   Tally tally;
-  for (int seed = hunt_from(); seed < hunt_from() + hunt(100); ++seed) {
+  for (int seed = 0; seed < 100; ++seed) {
     const Packing packing = extreme_column(static_cast<std::uint64_t>(seed));
     ASSERT_FALSE(find_defect(packing)) << find_defect(packing)->reason;
     check_scene("seed " + std::to_string(seed), packing, 54, tally);
   }
-  expect_use(tally, 10);
+  expect_use(tally, 40);
 }
 
 /// Bounds of forces and imposed stress, against exact bases.
@@ -344,7 +340,7 @@ TEST(VerifiedBounds, HoldOfBoundedForcesAndImposedStress) {
       ASSERT_TRUE(std::isfinite(least) && std::isfinite(most));
       if (k % 2 == 1) std::tie(least, most) = std::pair(-most, -least);
       const std::vector<ValueBounds> all =
-          bounds_for_many_points(set, centre, verified, objectives[k], runs[k], random);
+          bounds_for_many_points(centre, verified, objectives[k], runs[k], random);
       for (const ValueBounds& bounds : all) {
         EXPECT_TRUE(is_below(bounds.lower, mpq_class(most), unit))
             << k << ": " << bounds.lower << ", " << most;
