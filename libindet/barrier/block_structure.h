@@ -21,7 +21,9 @@ namespace indet::barrier {
 /// nothing.
 class BlockStructure {
  public:
-  /// `rows`: the equations to keep, ascending; they have to be independent for A D Aᵀ to be definite.
+  /// `rows`: the equations to keep, ascending; they have to be independent for A D Aᵀ to be definite. The
+  /// others play no part in anything that is computed here: that they follow from these, with their loads, is
+  /// for the caller to know. (A disk on an incline has a centre without its third equation, and is empty.)
   BlockStructure(const EquilibriumProblem& problem, std::span<const int> rows);
 
   /// A node that a group touches: A has the block of its `rows` and the group's columns there, column by

@@ -9,6 +9,8 @@
 namespace indet::barrier {
 namespace {
 
+constexpr double kSmallest = 0x1p-300;
+
 /// γ_n of Higham: the relative rounding of a sum of n products.
 double gamma(double n) { return n * kRoundoff / (1 - n * kRoundoff); }
 
@@ -57,18 +59,27 @@ double norm(std::span<const double> values) {
 
 VerifiedEquations::VerifiedEquations(const EquilibriumProblem& problem, const BlockStructure& structure,
                                      const AnalyticCentre& centre)
-    : structure_(structure), centre_(centre), cholesky_(structure) {
+    : structure_(structure),
+      centre_(centre),
+      widen_(kWiden + 4 * kRoundoff * static_cast<double>(structure.rows() + structure.columns())),
+      cholesky_(structure) {
+  // A disk that touches an image of itself has the torques of both ends in one entry.
+  const bool has_sums = std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                                    [](const ContactEnds& ends) { return ends.a >= 0 && ends.a == ends.b; });
   for (const int row : structure.equation_of_place()) {
     const EquilibriumRow& equation = problem.rows[static_cast<std::size_t>(row)];
     // Entries are stored doubles or rounded a few times; those of stress are f·l/L with |f| ≤ √2, |l|/L ≤
-    // 3/2.
-    entry_error_.push_back((equation.body.is_cell() ? 24 : 8) * kRoundoff);
+    // 3/2, levers up to two radii.
+    entry_error_.push_back((equation.body.is_cell() || has_sums ? 24 : 8) * kRoundoff);
     load_error_.push_back(6 * kRoundoff * equation.load / equation.unit + kTiny);
   }
   row_terms_.assign(entry_error_.size(), 0);
   for_each_entry(structure, [&](std::size_t, std::size_t place, double) { row_terms_[place] += 1; });
   for (const double x : centre.x) squares_.push_back(x * x);
-  bound_singular_value();
+  // Beyond these, squares and the scales that go with them leave the range where rounding is relative.
+  const bool is_in_range = std::all_of(centre.x.begin(), centre.x.end(),
+                                       [](double x) { return x > kSmallest && x < 1 / kSmallest; });
+  if (is_in_range) bound_singular_value();
   bound_strengths();
   cholesky_.factor(squares_);
   centre_shift_ = shift_of(centre.x);
@@ -124,7 +135,7 @@ void VerifiedEquations::bound_singular_value() {
     const double shift = share * estimate;
     if (!cholesky_.factor(squares_, scale_, shift)) continue;
     const double square = shift - rounding;
-    sigma_ = square > 0 ? std::max(0.0, std::sqrt(square) / kWiden - kWiden * std::sqrt(entries)) : 0;
+    sigma_ = square > 0 ? std::max(0.0, std::sqrt(square) / widen_ - widen_ * std::sqrt(entries)) : 0;
     if (sigma_ > 0) break;
   }
 }
@@ -133,7 +144,7 @@ VerifiedEquations::LoadProduct VerifiedEquations::load_product(std::span<const d
   const Dot dot = accurate_dot(y, structure_.load());
   double loads = 0;
   for (std::size_t i = 0; i < y.size(); ++i) loads += std::abs(y[i]) * load_error_[i];
-  return {dot.value, kWiden * (dot.error + kWiden * loads)};
+  return {dot.value, widen_ * (dot.error + widen_ * loads)};
 }
 
 VerifiedEquations::Transposed VerifiedEquations::verified_transposed_product(
@@ -162,7 +173,7 @@ VerifiedEquations::Transposed VerifiedEquations::verified_transposed_product(
       }
       const auto k = static_cast<std::size_t>(group.first_column + e);
       result.value[k] = sum;
-      result.error[k] = kWiden * (kRoundoff * terms * magnitude + kWiden * rounded) + kTiny;
+      result.error[k] = widen_ * (kRoundoff * terms * magnitude + widen_ * rounded) + kTiny;
     }
   }
   return result;
@@ -178,7 +189,7 @@ void VerifiedEquations::bound_strengths() {
   for (std::size_t k = 0; k < n; ++k) {
     const double least = along.value[k] - along.error[k];
     if (least > 0) {
-      strength_[k] = kWiden * std::max(0.0, total / least);
+      strength_[k] = widen_ * std::max(0.0, total / least);
     } else {
       is_bounded_ = false;
     }
@@ -211,11 +222,11 @@ double VerifiedEquations::shift_of(std::span<const double> x) const {
   for (std::size_t i = 0; i < value.size(); ++i) {
     const double size = magnitude[i] + std::abs(structure_.load()[i]);
     const double residual = std::abs(structure_.load()[i] - value[i]) +
-                            kWiden * (gamma(row_terms_[i] + 2) * size + entry_error_[i] * entries[i]) +
+                            widen_ * (gamma(row_terms_[i] + 2) * size + entry_error_[i] * entries[i]) +
                             load_error_[i] + kTiny;
     sum += residual * residual * scale_[i] * scale_[i];
   }
-  const double shift = kWiden * std::sqrt(kWiden * sum) / sigma_;
+  const double shift = widen_ * std::sqrt(widen_ * sum) / sigma_;
   return std::isnan(shift) ? kInfinity : shift;
 }
 
@@ -224,7 +235,7 @@ double VerifiedEquations::lower_bound(const Objective& objective, std::span<cons
   Transposed along = verified_transposed_product(y);
   for (const auto& [column, weight] : objective) {
     const auto k = static_cast<std::size_t>(column);
-    along.error[k] += kWiden * 4 * kRoundoff * (std::abs(weight) + std::abs(along.value[k]));
+    along.error[k] += widen_ * 4 * kRoundoff * (std::abs(weight) + std::abs(along.value[k]));
     along.value[k] -= weight;
   }
   double excess = 0;
@@ -232,7 +243,7 @@ double VerifiedEquations::lower_bound(const Objective& objective, std::span<cons
     const double h = along.value[k] + along.error[k];  // above −h_k
     if (!(h <= 0)) excess += h * strength_[k];
   }
-  const double bound = load.value - load.error - kWiden * kWiden * excess;
+  const double bound = load.value - load.error - widen_ * widen_ * excess;
   return std::isnan(bound) ? -kInfinity : bound;
 }
 
@@ -241,11 +252,11 @@ double VerifiedEquations::upper_bound(const Objective& objective, std::span<cons
   if (!(shift < kInfinity)) return kInfinity;
   double share = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const double left = x[k] - kWiden * centre_.x[k] * shift;
+    const double left = x[k] - widen_ * centre_.x[k] * shift;
     if (left < 0) share = std::max(share, -left / (centre_.x[k] * (1 - centre_shift_) - left));
     if (std::isnan(left)) return kInfinity;
   }
-  share = std::min(1.0, kWiden * share);
+  share = std::min(1.0, widen_ * share);
   double value = 0, middle = 0, reach = 0, size = 0;
   for (const auto& [column, weight] : objective) {
     const auto k = static_cast<std::size_t>(column);
@@ -256,7 +267,7 @@ double VerifiedEquations::upper_bound(const Objective& objective, std::span<cons
   }
   const double terms = 6 + static_cast<double>(objective.size());
   const double bound = value +
-                       kWiden * (share * std::abs(middle - value) + reach * (shift + share * centre_shift_) +
+                       widen_ * (share * std::abs(middle - value) + reach * (shift + share * centre_shift_) +
                                  2 * gamma(terms) * size) +
                        kTiny;
   return std::isnan(bound) ? kInfinity : bound;

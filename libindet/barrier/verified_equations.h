@@ -76,6 +76,7 @@ class VerifiedEquations {
 
   const BlockStructure& structure_;
   const AnalyticCentre& centre_;
+  double widen_;                     ///< kWiden, and room for sums over all rows or columns
   std::vector<double> squares_;      ///< x_c²
   std::vector<double> scale_;        ///< S
   std::vector<double> entry_error_;  ///< of each row: of an entry of A
