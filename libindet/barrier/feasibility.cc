@@ -69,7 +69,8 @@ Feasibility find_feasibility(const BlockStructure& structure, BlockCholesky& cho
   const std::vector<double>& b = structure.load();
   const auto n = static_cast<std::size_t>(structure.columns());
   // Strengths are several times as large as the loads.
-  const double unit = std::max(1.0, largest_entry(b)) * 10;
+  const double largest_load = std::max(1.0, largest_entry(b));
+  const double unit = 10 * largest_load;
   std::vector<double> scaled_b = b;
   multiply_by(scaled_b, 1 / unit);
   const std::vector<double> zero(n, 0.0);
@@ -113,11 +114,12 @@ Feasibility find_feasibility(const BlockStructure& structure, BlockCholesky& cho
   }
   const bool is_clear = point.margin >= tolerance::kClearSplit && std::isfinite(size) &&
                         resisted <= tolerance::kRestingPower && opening >= tolerance::kOpeningPower;
-  if (is_empty && is_clear && work <= -tolerance::kOpeningPower * possible_work) {
+  if (is_empty && is_clear && work <= -tolerance::kOpeningPower * possible_work &&
+      work < -tolerance::kRestingPower * largest_load) {
     result.kind = Feasibility::Kind::kEmpty;
     result.closed.clear();
   } else if (!is_empty && is_clear && !result.x.empty() &&
-             std::abs(work) <= tolerance::kRestingPower * possible_work) {
+             std::abs(work) <= tolerance::kRestingPower * largest_load) {
     result.kind = Feasibility::Kind::kClosed;
   } else {
     result.x.clear();

@@ -15,7 +15,7 @@ double larger_over_smaller(double a, double b) { return std::max(a / b, b / a); 
 class SelfDualSearch {
  public:
   SelfDualSearch(const BlockStructure& structure, BlockCholesky& cholesky, std::span<const double> b,
-         std::span<const double> c)
+                 std::span<const double> c)
       : structure_(structure),
         cholesky_(cholesky),
         b_(b),
@@ -52,13 +52,12 @@ class SelfDualSearch {
   static constexpr int kMostIdle = 30;
   static constexpr double kShare = 0.99;  ///< of the way to the nearest bound
 
-  double mu() const {
-    return (dot(at_.x, at_.s) + at_.tau * at_.kappa) / (static_cast<double>(n_) + 1);
-  }
+  double mu() const { return (dot(at_.x, at_.s) + at_.tau * at_.kappa) / (static_cast<double>(n_) + 1); }
 
   void find_margin() {
     at_.margin = larger_over_smaller(at_.tau, at_.kappa);
-    for (std::size_t k = 0; k < n_; ++k) at_.margin = std::min(at_.margin, larger_over_smaller(at_.x[k], at_.s[k]));
+    for (std::size_t k = 0; k < n_; ++k)
+      at_.margin = std::min(at_.margin, larger_over_smaller(at_.x[k], at_.s[k]));
   }
 
   void find_residuals() {

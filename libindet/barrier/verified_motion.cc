@@ -12,7 +12,9 @@ namespace {
 
 /// Of an entry of A in the row of this equation: stored doubles, or rounded a few times; those of stress are
 /// f·l/L with |f| ≤ √2, |l|/L ≤ 3/2.
-double rounding_of_entry(const EquilibriumRow& equation) { return (equation.body.is_cell() ? 24 : 8) * kRoundoff; }
+double rounding_of_entry(const EquilibriumRow& equation) {
+  return (equation.body.is_cell() ? 24 : 8) * kRoundoff;
+}
 
 /// Calls visit(column, place, entry) for every entry of A, zeros of blocks too.
 template <class Visit>

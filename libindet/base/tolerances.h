@@ -413,9 +413,10 @@ inline constexpr double kLeastWeight = 1e-7;
 inline constexpr double kMendedState = 1e-6;
 
 /// Under a mended motion with largest entry 1, a unit force along an edge that rests has up to the first
-/// power, one along an edge that opens at least the second; so has the load, relative to Σ|b_i y_i|, if it
-/// does none or some work. Rounding makes 1e-16 … 1e-15. Between them nothing is decided.
-inline constexpr double kRestingPower = 1e-12;
+/// power, one along an edge that opens at least the second. The load does no work up to the first (relative to
+/// the largest load, at least one internal unit), and some from the second on (relative to Σ|b_i y_i|).
+/// Rounding makes 1e-16 … 1e-15. Between them nothing is decided.
+inline constexpr double kRestingPower = 1e-13;
 inline constexpr double kOpeningPower = 1e-9;
 
 /// What is left of Aᵀ y + s = c becomes part of s if it is smaller than this share of it.

@@ -80,39 +80,52 @@ Eigen::VectorXd as_vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// The exact problem and what has been proven with it, if it is small enough.
+/// What rational arithmetic proves, where it costs little.
 class ExactProofs {
  public:
-  ExactProofs(const Packing& packing, const EquilibriumProblem& problem, int most_rows) {
-    if (problem.equations() <= most_rows) exact_.emplace(packing);
-  }
+  ExactProofs(const Packing& packing, const EquilibriumProblem& natural, int most_rows)
+      : packing_(packing), rows_(natural.equations()), most_rows_(most_rows) {}
 
   void add_step(const EquilibriumProblem& before, const SparseDecision::Step& step) {
-    if (exact_) closings_.push_back({step.half_planes, motion_on_exact_rows(*exact_, before, step.motion)});
+    if (rows_ > most_rows_) {
+      is_lost_ = true;
+    } else {
+      closings_.push_back({step.half_planes, motion_on_exact_rows(exact(), before, step.motion)});
+    }
   }
-  bool is_empty(const SparseDecision& decision) const {
-    return exact_ && exact::proves_structure(*exact_, closings_, {}) &&
-           exact::proves_emptiness(*exact_, motion_on_exact_rows(*exact_, decision.problem, decision.motion),
+  bool is_empty(const SparseDecision& decision) {
+    return !is_lost_ && rows_ <= most_rows_ && exact::proves_structure(exact(), closings_, {}) &&
+           exact::proves_emptiness(exact(), motion_on_exact_rows(exact(), decision.problem, decision.motion),
                                    closings_, tolerance::kExactZero);
   }
-  /// The edges that are open have the interior that was found.
-  bool has_structure(const SparseDecision& decision) const {
-    return exact_ && exact::proves_structure(*exact_, closings_,
-                                             static_cast<int>(decision.independent_rows.size()));
+  /// The rank, and that the equations do not contradict each other.
+  bool has_structure(const SparseDecision& decision) {
+    return !is_lost_ && rows_ <= kModularRows * most_rows_ &&
+           exact::proves_structure(exact(), closings_, static_cast<int>(decision.independent_rows.size()));
   }
-  bool has_ray(const SparseDecision& decision) const {
-    if (!exact_) return false;
-    std::vector<double> strengths(static_cast<std::size_t>(exact_->edges()), 0);
+  bool has_ray(const SparseDecision& decision) {
+    if ((decision.ray.array() > 0).count() > most_rows_ || rows_ > kModularRows * most_rows_) return false;
+    std::vector<double> strengths(static_cast<std::size_t>(exact().edges()), 0);
     for (int k = 0; k < decision.problem.unknowns(); ++k) {
       const Edge& edge = decision.problem.edge(k);
-      const double R = edge.is_slack() ? 1 : edge.R;
-      strengths[static_cast<std::size_t>(decision.problem.half_plane(edge))] =
-          decision.ray[k] * R / decision.ray.maxCoeff();
+      const double scale = (edge.is_slack() ? 1 : edge.R) / decision.ray.maxCoeff();
+      strengths[static_cast<std::size_t>(decision.problem.half_plane(edge))] = decision.ray[k] * scale;
     }
-    return exact::proves_ray(*exact_, strengths, 0);
+    return exact::proves_ray(exact(), strengths, 0);
   }
 
  private:
+  /// Modulo a prime a sparse factorisation costs as much less than rational numbers do.
+  static constexpr int kModularRows = 50;
+
+  const exact::ContactProblem& exact() {
+    if (!exact_) exact_.emplace(packing_);
+    return *exact_;
+  }
+
+  const Packing& packing_;
+  int rows_, most_rows_;
+  bool is_lost_ = false;  ///< some closed edges are not proven
   std::optional<exact::ContactProblem> exact_;
   std::vector<exact::Closing> closings_;
 };
@@ -140,7 +153,7 @@ void close_edges(const Feasibility& feasibility, const BlockStructure& structure
 
 /// That x > 0 is near a state, that the rank is right, and what follows from y or the ray.
 void prove_states(const BlockStructure& structure, const std::vector<double>& x, const std::vector<double>& y,
-                  const ExactProofs& exact, SparseDecision& decision) {
+                  ExactProofs& exact, SparseDecision& decision) {
   barrier::AnalyticCentre point;
   point.x = x;
   point.y = y;
@@ -203,6 +216,11 @@ SparseDecision decide_sparsely(const Packing& packing, int exact_rows) {
         break;
     }
     decision.interior = as_vector(feasibility.x);
+    // Rows that follow from the others have not been looked at.
+    const double residual =
+        (problem.edge_matrix * decision.interior - problem.load()).lpNorm<Eigen::Infinity>();
+    if (residual > tolerance::kImplicitEquality * std::max(1.0, decision.interior.lpNorm<Eigen::Infinity>()))
+      return decision;
     decision.dim = problem.unknowns() - structure.rows();
     Boundedness boundedness;
     decision.status = PolytopeStatus::kPoint;
