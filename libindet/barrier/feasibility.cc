@@ -112,7 +112,7 @@ Feasibility find_feasibility(const BlockStructure& structure, BlockCholesky& cho
       opening = std::min(opening, power[k]);
     }
   }
-  const bool is_clear = point.margin >= tolerance::kClearSplit && std::isfinite(size) &&
+  const bool is_clear = point.margin >= tolerance::kLeastSplit && std::isfinite(size) &&
                         resisted <= tolerance::kRestingPower && opening >= tolerance::kOpeningPower;
   if (is_empty && is_clear && work <= -tolerance::kOpeningPower * possible_work &&
       work < -tolerance::kRestingPower * largest_load) {
@@ -155,7 +155,7 @@ Boundedness find_boundedness(const BlockStructure& structure, BlockCholesky& cho
   }
   const double change = mend_state(structure, cholesky, no_load, result.ray);
   const double sum = std::accumulate(result.ray.begin(), result.ray.end(), 0.0);
-  result.decided = change <= tolerance::kMendedState && point.margin >= tolerance::kClearSplit && sum > 0;
+  result.decided = change <= tolerance::kMendedState && point.margin >= tolerance::kLeastSplit && sum > 0;
   if (result.decided) {
     multiply_by(result.ray, 1 / sum);
   } else {

@@ -116,7 +116,7 @@ std::optional<RationalVector> kernel_vector(const std::vector<const IntegerColum
 /// this row and independent ones alone, under which every column rests and the load does no work. Which rows
 /// take part is found modulo the prime; they are usually few (of a lone disk on a floor, its own).
 bool follow_from(const ContactProblem& problem, const std::vector<const IntegerColumn*>& columns,
-                 const PrimeField& field, const ModularLu& lu) {
+                 const PrimeField& field, const ModularLu& lu, std::size_t most_rows) {
   const std::vector<int> independent = lu.pivot_rows();
   const std::vector<int> number = numbers_of(independent, problem.rows());
   const std::vector<int> pivot_columns = lu.pivot_columns();
@@ -142,6 +142,7 @@ bool follow_from(const ContactProblem& problem, const std::vector<const IntegerC
     for (std::size_t k = 0; k < combination.size(); ++k) {
       if (combination[k] != 0) chosen.push_back(&by_row[static_cast<std::size_t>(independent[k])]);
     }
+    if (chosen.size() > most_rows) return false;
     // Independent rows alone have a trivial kernel, so any kernel vector has a part in this row.
     const std::vector<mpq_class> one(chosen.size(), 1);
     if (!kernel_vector(chosen, static_cast<int>(conditions.size()), one)) return false;
@@ -217,7 +218,7 @@ bool proves_ray(const ContactProblem& problem, std::span<const double> guess, do
 }
 
 bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
-                      std::optional<int> final_rank) {
+                      std::optional<int> final_rank, std::size_t most_rows) {
   std::vector<bool> open = open_after(problem, {});
   const auto open_edges = [&] {
     std::vector<int> edges;
@@ -244,7 +245,7 @@ bool proves_structure(const ContactProblem& problem, std::span<const Closing> cl
   const ModularLu lu(field, problem.rows(), columns);
   if (lu.rank() != *final_rank) return false;
   if (lu.rank() == problem.rows()) return true;
-  return follow_from(problem, columns, field, lu);
+  return follow_from(problem, columns, field, lu, most_rows);
 }
 
 }  // namespace indet::exact

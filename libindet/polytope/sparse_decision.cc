@@ -101,7 +101,8 @@ class ExactProofs {
   /// The rank, and that the equations do not contradict each other.
   bool has_structure(const SparseDecision& decision) {
     return !is_lost_ && rows_ <= kModularRows * most_rows_ &&
-           exact::proves_structure(exact(), closings_, static_cast<int>(decision.independent_rows.size()));
+           exact::proves_structure(exact(), closings_, static_cast<int>(decision.independent_rows.size()),
+                                   static_cast<std::size_t>(most_rows_));
   }
   bool has_ray(const SparseDecision& decision) {
     if ((decision.ray.array() > 0).count() > most_rows_ || rows_ > kModularRows * most_rows_) return false;
