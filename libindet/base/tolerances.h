@@ -401,6 +401,30 @@ inline constexpr double kCentring = 1e-6;
 /// Strengths beyond this (internal unit) on the way to the centre tell that there is none.
 inline constexpr double kFarthestCentre = 1e14;
 
+/// The homogeneous self-dual method ends where of each pair of strict complementarity one side is this many
+/// times the other (strengths in units of ten times the largest load, velocities relative to about the
+/// largest), and the mean product of the pairs has fallen to kSelfDualPath. Where rounding ends it sooner,
+/// nothing is decided below kLeastSplit; above, what it proposes stands or falls by the state and the motion
+/// themselves.
+inline constexpr double kClearSplit = 1e6;
+inline constexpr double kSelfDualPath = 1e-12;
+inline constexpr double kLeastSplit = 1e3;
+
+/// Weights of the least squares by which a motion is mended are no smaller than this, and no larger than its
+/// inverse.
+inline constexpr double kLeastWeight = 1e-7;
+
+/// A state x > 0, or a ray, is one if the last step that mends A x = b changes no entry by more than this,
+/// relative to the entry: then an exact one is near.
+inline constexpr double kMendedState = 1e-6;
+
+/// Under a mended motion with largest entry 1, a unit force along an edge that rests has up to the first
+/// power, one along an edge that opens at least the second. The load does no work up to the first (relative
+/// to the largest load, at least one internal unit), and some from the second on (relative to Σ|b_i y_i|).
+/// Rounding makes 1e-16 … 1e-15. Between them nothing is decided.
+inline constexpr double kRestingPower = 1e-13;
+inline constexpr double kOpeningPower = 1e-9;
+
 /// What is left of Aᵀ y + s = c becomes part of s if it is smaller than this share of it.
 inline constexpr double kAbsorbedDualResidual = 1e-3;
 

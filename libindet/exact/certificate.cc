@@ -43,6 +43,30 @@ std::vector<int> numbers_of(const std::vector<int>& chosen, int size) {
   return number;
 }
 
+std::vector<const IntegerColumn*> pointers_to(const std::vector<IntegerColumn>& columns) {
+  std::vector<const IntegerColumn*> pointers;
+  for (const IntegerColumn& column : columns) pointers.push_back(&column);
+  return pointers;
+}
+
+/// The chosen columns on the rows that have a number.
+std::vector<IntegerColumn> part_of(const std::vector<const IntegerColumn*>& columns,
+                                   const std::vector<int>& chosen, const std::vector<int>& row_number) {
+  std::vector<IntegerColumn> part;
+  for (const int j : chosen) {
+    const IntegerColumn& column = *columns[static_cast<std::size_t>(j)];
+    IntegerColumn kept;
+    for (std::size_t k = 0; k < column.row.size(); ++k) {
+      const int row = row_number[static_cast<std::size_t>(column.row[k])];
+      if (row < 0) continue;
+      kept.row.push_back(row);
+      kept.value.push_back(column.value[k]);
+    }
+    part.push_back(std::move(kept));
+  }
+  return part;
+}
+
 /// x with A x = 0 exactly, for the sparse A with these columns, that agrees with the guess in as many entries
 /// as A leaves free. Nothing if A leaves none, or if the rank modulo a prime was an accident (the result is
 /// multiplied back).
@@ -69,21 +93,8 @@ std::optional<RationalVector> kernel_vector(const std::vector<const IntegerColum
       if (row >= 0) right[static_cast<std::size_t>(row)] -= columns[j]->value[k] * free[j];
     }
   }
-  std::vector<IntegerColumn> square;
-  for (const int j : independent) {
-    const IntegerColumn& column = *columns[static_cast<std::size_t>(j)];
-    IntegerColumn kept;
-    for (std::size_t k = 0; k < column.row.size(); ++k) {
-      const int row = row_number[static_cast<std::size_t>(column.row[k])];
-      if (row < 0) continue;
-      kept.row.push_back(row);
-      kept.value.push_back(column.value[k]);
-    }
-    square.push_back(std::move(kept));
-  }
-  std::vector<const IntegerColumn*> pointers;
-  for (const IntegerColumn& column : square) pointers.push_back(&column);
-  const auto solver = RationalSolver::create(std::move(pointers));
+  const std::vector<IntegerColumn> square = part_of(columns, independent, row_number);
+  const auto solver = RationalSolver::create(pointers_to(square));
   if (!solver) return {};
   const RationalVector solved = solver->solve(right);
   RationalVector x;
@@ -99,6 +110,44 @@ std::optional<RationalVector> kernel_vector(const std::vector<const IntegerColum
   }
   const bool holds = std::all_of(residual.begin(), residual.end(), [](const mpz_class& r) { return r == 0; });
   return holds ? std::optional(std::move(x)) : std::nullopt;
+}
+
+/// True if every row that is not among the pivots' is a combination of these, load included: a motion with
+/// this row and independent ones alone, under which every column rests and the load does no work. Which rows
+/// take part is found modulo the prime; they are usually few (of a lone disk on a floor, its own).
+bool follow_from(const ContactProblem& problem, const std::vector<const IntegerColumn*>& columns,
+                 const PrimeField& field, const ModularLu& lu, std::size_t most_rows) {
+  const std::vector<int> independent = lu.pivot_rows();
+  const std::vector<int> number = numbers_of(independent, problem.rows());
+  const std::vector<int> pivot_columns = lu.pivot_columns();
+  const std::vector<IntegerColumn> square = part_of(columns, pivot_columns, number);
+  const ModularLu square_lu(field, lu.rank(), pointers_to(square));
+  if (square_lu.rank() != lu.rank()) return false;
+
+  const IntegerColumn load = load_column(problem);
+  std::vector<const IntegerColumn*> conditions = columns;
+  conditions.push_back(&load);
+  const std::vector<IntegerColumn> by_row = transposed(conditions, problem.rows());
+  const std::vector<int> pivot_number = numbers_of(pivot_columns, static_cast<int>(conditions.size()));
+  for (int row = 0; row < problem.rows(); ++row) {
+    if (number[static_cast<std::size_t>(row)] >= 0) continue;
+    const IntegerColumn& dependent = by_row[static_cast<std::size_t>(row)];
+    std::vector<std::uint64_t> right(pivot_columns.size(), 0);
+    for (std::size_t k = 0; k < dependent.row.size(); ++k) {
+      const int at = pivot_number[static_cast<std::size_t>(dependent.row[k])];
+      if (at >= 0) right[static_cast<std::size_t>(at)] = field.reduce(dependent.value[k]);
+    }
+    const std::vector<std::uint64_t> combination = square_lu.solve_transposed(std::move(right));
+    std::vector<const IntegerColumn*> chosen{&dependent};
+    for (std::size_t k = 0; k < combination.size(); ++k) {
+      if (combination[k] != 0) chosen.push_back(&by_row[static_cast<std::size_t>(independent[k])]);
+    }
+    if (chosen.size() > most_rows) return false;
+    // Independent rows alone have a trivial kernel, so any kernel vector has a part in this row.
+    const std::vector<mpq_class> one(chosen.size(), 1);
+    if (!kernel_vector(chosen, static_cast<int>(conditions.size()), one)) return false;
+  }
+  return true;
 }
 
 std::vector<bool> open_after(const ContactProblem& problem, std::span<const Closing> closings) {
@@ -169,7 +218,7 @@ bool proves_ray(const ContactProblem& problem, std::span<const double> guess, do
 }
 
 bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
-                      std::optional<int> final_rank) {
+                      std::optional<int> final_rank, std::size_t most_rows) {
   std::vector<bool> open = open_after(problem, {});
   const auto open_edges = [&] {
     std::vector<int> edges;
@@ -195,25 +244,8 @@ bool proves_structure(const ContactProblem& problem, std::span<const Closing> cl
   const PrimeField field(large_prime(0));
   const ModularLu lu(field, problem.rows(), columns);
   if (lu.rank() != *final_rank) return false;
-  const std::vector<int> number = numbers_of(lu.pivot_rows(), problem.rows());
   if (lu.rank() == problem.rows()) return true;
-  const IntegerColumn load = load_column(problem);
-  std::vector<const IntegerColumn*> conditions = columns;
-  conditions.push_back(&load);
-  const std::vector<IntegerColumn> by_row = transposed(conditions, problem.rows());
-  for (int row = 0; row < problem.rows(); ++row) {
-    if (number[static_cast<std::size_t>(row)] >= 0) continue;
-    std::vector<const IntegerColumn*> chosen;
-    std::vector<mpq_class> one;
-    for (int other = 0; other < problem.rows(); ++other) {
-      if (other != row && number[static_cast<std::size_t>(other)] < 0) continue;
-      chosen.push_back(&by_row[static_cast<std::size_t>(other)]);
-      one.emplace_back(1);
-    }
-    // Independent rows alone have a trivial kernel, so any kernel vector has a part in this row.
-    if (!kernel_vector(chosen, static_cast<int>(conditions.size()), one)) return false;
-  }
-  return true;
+  return follow_from(problem, columns, field, lu, most_rows);
 }
 
 }  // namespace indet::exact

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,8 +54,11 @@ bool proves_ray(const ContactProblem& problem, std::span<const double> guess, do
 
 /// True if each step's edges are 0 in every state (a motion exists under which they open, the load does no
 /// work, and every edge that stays open rests), and the equations of the edges that stay open in the end have
-/// exactly the given rank and do not contradict each other (not asked if no rank is given).
+/// exactly the given rank and do not contradict each other (not asked if no rank is given). The cost grows
+/// with the cube of the number of rows from which one that is not independent follows: with more than
+/// `most_rows` of them nothing is proven.
 bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
-                      std::optional<int> final_rank);
+                      std::optional<int> final_rank,
+                      std::size_t most_rows = std::numeric_limits<std::size_t>::max());
 
 }  // namespace indet::exact

@@ -8,6 +8,7 @@
 #include "libindet/exact/certificate.h"
 #include "tests/support/extremes.h"
 #include "tests/support/rational_simplex.h"
+#include "tests/support/scene_builder.h"
 #include "tests/support/zoo.h"
 
 namespace indet::exact {
@@ -136,6 +137,44 @@ TEST(Certificate, ProvesRankAndClosedEdges) {
   Packing turned = zoo::rotated(zoo::disk_on_floor(0.3), 0.7);
   turned.contacts[0].normal.x() += 1e-15;
   EXPECT_FALSE(proves_structure(ContactProblem(turned), {}, 2));
+}
+
+TEST(Certificate, FindsTheRowsThatADependentRowFollowsFrom) {
+  // Disks on a floor beside a groove: of each lone disk two of three equations say T = 0.
+  Packing packing = zoo::wedge(0.4, 0.3);
+  const WallId floor = zoo::add_wall(packing, {0, -100}, {0, 1});
+  for (int k = 0; k < 60; ++k) {
+    const DiskId disk = zoo::add_disk(packing, {3.0 * k, -99});
+    zoo::touch(packing, disk, Body::wall(floor), 0.3);
+  }
+  const ContactProblem problem(packing);
+  EXPECT_EQ(problem.rows(), 183);
+  EXPECT_EQ(problem.rank(), 123);
+  EXPECT_TRUE(proves_structure(problem, {}, 123));
+  EXPECT_FALSE(proves_structure(problem, {}, 124));
+  // A torque on one of them contradicts its other equations.
+  packing.disks.back().load.z() = 1e-300;
+  EXPECT_FALSE(proves_structure(ContactProblem(packing), {}, 123));
+}
+
+TEST(Certificate, FindsADependentRowThatFollowsFromAllOthers) {
+  // A frictionless chain between two walls: its horizontal equations, a wall's too, sum up to 0 = 0 but for
+  // the wall that is loaded.
+  for (const double load : {2.0, 2.0000000001}) {
+    Packing packing = zoo::empty_scene();
+    packing.gravity = {0, 0};
+    const WallId left = zoo::add_wall(packing, {0, 0}, {1, 0});
+    const WallId right = zoo::add_wall(packing, {20, 0}, {-1, 0});
+    packing.walls[0].load_n = 2;
+    packing.walls[1].load_n = load;
+    for (int k = 0; k < 10; ++k) zoo::add_disk(packing, {2.0 * k + 1, 0});
+    zoo::touch(packing, DiskId(0), Body::wall(left), 0);
+    for (int k = 1; k < 10; ++k) zoo::touch(packing, DiskId(k), Body::disk(DiskId(k - 1)), 0);
+    zoo::touch(packing, DiskId(9), Body::wall(right), 0);
+    const ContactProblem problem(packing);
+    EXPECT_EQ(problem.rank(), 11);
+    EXPECT_EQ(proves_structure(problem, {}, 11), load == 2.0) << load;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""A synthetic pile of any size, as a folder for `indet import --format csv`.
+
+    bench/large/synthetic_pile.py DISKS FOLDER [--seed S] [--mu 0.3]
+
+Rows of disks in a box, each between two of the row below and displaced a little. Of the two contacts below a disk one is
+missing with probability 0.29, so that M = 1.71 N, as in packings that molecular dynamics makes; the floor carries the
+lowest row. The forces are drawn, R from an exponential law that grows with the depth, T within the cone, and the loads of
+the disks are what balances them. Forces cannot grow without limit: a disk has contacts below and above alone, and those of
+the top row have none above.
+"""
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+
+def pile(disks, mu, random):
+    columns = max(2, int(round(np.sqrt(disks))))
+    rows = int(np.ceil(disks / columns))
+    radius = 0.5
+    index = np.arange(disks)
+    row, column = index // columns, index % columns
+    position = np.stack([column + 0.5 * (row % 2), row * np.sqrt(3) / 2 + radius], axis=1)
+    position += random.uniform(-0.03, 0.03, position.shape)
+    position[row == 0, 1] = radius
+
+    below = [[], []]
+    for side in (0, 1):
+        other_column = column - 1 + side + (row % 2)
+        keep = (row > 0) & (other_column >= 0) & (other_column < columns)
+        below[side] = np.stack([index[keep], (row[keep] - 1) * columns + other_column[keep]], axis=1)
+    pairs = np.concatenate(below)
+    pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
+    lonely = np.bincount(pairs[:, 0], minlength=disks)[pairs[:, 0]] < 2
+    drop = np.zeros(len(pairs), bool)
+    first = np.flatnonzero(np.r_[True, pairs[1:, 0] != pairs[:-1, 0]])
+    chosen = first[random.random(len(first)) < 0.29]
+    drop[chosen + random.integers(0, 2, len(chosen)) * (~lonely[chosen])] = ~lonely[chosen]
+    pairs = pairs[~drop]
+    floor = index[row == 0]
+    a = np.r_[pairs[:, 0], floor]
+    b = np.r_[pairs[:, 1], np.full(len(floor), -1)]
+    normal = np.r_[position[pairs[:, 0]] - position[pairs[:, 1]], np.tile([0.0, 1.0], (len(floor), 1))]
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    R = (0.5 + 0.5 * (rows - row[a])) * np.maximum(0.02, random.exponential(size=len(a)))
+    T = 0.7 * mu * R * random.uniform(-1, 1, len(a))
+    force = R[:, None] * normal + T[:, None] * np.stack([normal[:, 1], -normal[:, 0]], axis=1)
+    load = np.zeros((disks, 3))
+    np.add.at(load, a, -np.c_[force, T * radius])
+    inner = b >= 0
+    np.add.at(load, b[inner], np.c_[force, -T * radius][inner])
+    return position, radius, a, b, normal, R, T, load
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("disks", type=int)
+    arguments.add_argument("folder", type=Path)
+    arguments.add_argument("--seed", type=int, default=0)
+    arguments.add_argument("--mu", type=float, default=0.3)
+    options = arguments.parse_args()
+    position, radius, a, b, normal, R, T, load = pile(options.disks, options.mu, np.random.default_rng(options.seed))
+    options.folder.mkdir(parents=True, exist_ok=True)
+    with open(options.folder / "disks.csv", "w") as file:
+        file.write("id,x,y,radius,mass,fx,fy,torque\n")
+        for i, (x, y) in enumerate(position.tolist()):
+            fx, fy, torque = load[i].tolist()
+            file.write(f"{i},{x!r},{y!r},{radius!r},1,{fx!r},{fy!r},{torque!r}\n")
+    with open(options.folder / "walls.csv", "w") as file:
+        file.write("id,px,py,nx,ny,name\n0,0,0,0,1,floor\n")
+    with open(options.folder / "contacts.csv", "w") as file:
+        file.write("a,b,nx,ny,R,T\n")
+        for row in zip(a.tolist(), b.tolist(), *normal.T.tolist(), R.tolist(), T.tolist()):
+            file.write(",".join(map(repr, row)) + "\n")
+    (options.folder / "scene.toml").write_text(f"gravity = [0, 0]\nforce_unit = 1\nmu = {options.mu!r}\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/exact/contact_problem.h"
+
+namespace indet {
+
+/// A motion of the equations' rows (one velocity a row), on the rows of the exact problem, largest entry 1.
+std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
+                                         const EquilibriumProblem& problem, const Eigen::VectorXd& motion);
+
+/// What is left of a contact when the edge of the given sign is closed.
+ContactMode without_edge(ContactMode mode, int sign);
+
+}  // namespace indet
