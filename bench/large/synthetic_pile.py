@@ -3,9 +3,9 @@
 
     bench/large/synthetic_pile.py DISKS FOLDER [--seed S] [--mu 0.3]
 
-Rows of disks in a box, each between two of the row below and displaced a little. Of the two contacts below a disk one is
-missing with probability 0.29, so that M = 1.71 N, as in packings that molecular dynamics makes; the floor carries the
-lowest row. The forces are drawn, R from an exponential law that grows with the depth, T within the cone, and the loads of
+Rows of disks, each between two of the row below and displaced a little; the lowest row is
+glued, and walls stand at both sides, so that every disk has two contacts below and all equations are independent. M is about 2 N (1.7 N in packings that molecular
+dynamics makes). The forces are drawn, R from an exponential law that grows with the depth, T within the cone, and the loads of
 the disks are what balances them. Forces cannot grow without limit: a disk has contacts below and above alone, and those of
 the top row have none above.
 """
@@ -23,7 +23,6 @@ def pile(disks, mu, random):
     row, column = index // columns, index % columns
     position = np.stack([column + 0.5 * (row % 2), row * np.sqrt(3) / 2 + radius], axis=1)
     position += random.uniform(-0.03, 0.03, position.shape)
-    position[row == 0, 1] = radius
 
     below = [[], []]
     for side in (0, 1):
@@ -32,16 +31,13 @@ def pile(disks, mu, random):
         below[side] = np.stack([index[keep], (row[keep] - 1) * columns + other_column[keep]], axis=1)
     pairs = np.concatenate(below)
     pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
-    lonely = np.bincount(pairs[:, 0], minlength=disks)[pairs[:, 0]] < 2
-    drop = np.zeros(len(pairs), bool)
-    first = np.flatnonzero(np.r_[True, pairs[1:, 0] != pairs[:-1, 0]])
-    chosen = first[random.random(len(first)) < 0.29]
-    drop[chosen + random.integers(0, 2, len(chosen)) * (~lonely[chosen])] = ~lonely[chosen]
-    pairs = pairs[~drop]
-    floor = index[row == 0]
-    a = np.r_[pairs[:, 0], floor]
-    b = np.r_[pairs[:, 1], np.full(len(floor), -1)]
-    normal = np.r_[position[pairs[:, 0]] - position[pairs[:, 1]], np.tile([0.0, 1.0], (len(floor), 1))]
+    # A disk at the end of a row has one disk below it, and a wall at its side.
+    side = index[(row > 0) & (np.bincount(pairs[:, 0], minlength=disks) < 2)]
+    is_left = column[side] < columns / 2
+    a = np.r_[pairs[:, 0], side]
+    b = np.r_[pairs[:, 1], np.where(is_left, -1, -2)]
+    normal = np.r_[position[pairs[:, 0]] - position[pairs[:, 1]],
+                   np.where(is_left[:, None], [1.0, 0.0], [-1.0, 0.0])]
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     R = (0.5 + 0.5 * (rows - row[a])) * np.maximum(0.02, random.exponential(size=len(a)))
     T = 0.7 * mu * R * random.uniform(-1, 1, len(a))
@@ -50,7 +46,8 @@ def pile(disks, mu, random):
     np.add.at(load, a, -np.c_[force, T * radius])
     inner = b >= 0
     np.add.at(load, b[inner], np.c_[force, -T * radius][inner])
-    return position, radius, a, b, normal, R, T, load
+    load[row == 0] = 0
+    return position, radius, row == 0, columns, a, b, normal, R, T, load
 
 
 def main():
@@ -60,15 +57,15 @@ def main():
     arguments.add_argument("--seed", type=int, default=0)
     arguments.add_argument("--mu", type=float, default=0.3)
     options = arguments.parse_args()
-    position, radius, a, b, normal, R, T, load = pile(options.disks, options.mu, np.random.default_rng(options.seed))
+    position, radius, glued, columns, a, b, normal, R, T, load = pile(options.disks, options.mu, np.random.default_rng(options.seed))
     options.folder.mkdir(parents=True, exist_ok=True)
     with open(options.folder / "disks.csv", "w") as file:
-        file.write("id,x,y,radius,mass,fx,fy,torque\n")
+        file.write("id,x,y,radius,mass,fx,fy,torque,fixed\n")
         for i, (x, y) in enumerate(position.tolist()):
             fx, fy, torque = load[i].tolist()
-            file.write(f"{i},{x!r},{y!r},{radius!r},1,{fx!r},{fy!r},{torque!r}\n")
+            file.write(f"{i},{x!r},{y!r},{radius!r},1,{fx!r},{fy!r},{torque!r},{int(glued[i])}\n")
     with open(options.folder / "walls.csv", "w") as file:
-        file.write("id,px,py,nx,ny,name\n0,0,0,0,1,floor\n")
+        file.write(f"id,px,py,nx,ny,name\n0,-0.5,0,1,0,left\n1,{columns},0,-1,0,right\n")
     with open(options.folder / "contacts.csv", "w") as file:
         file.write("a,b,nx,ny,R,T\n")
         for row in zip(a.tolist(), b.tolist(), *normal.T.tolist(), R.tolist(), T.tolist()):

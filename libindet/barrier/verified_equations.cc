@@ -108,36 +108,63 @@ void VerifiedEquations::bound_singular_value() {
     cholesky_.solve(v);
     estimate = std::min(estimate, 1 / norm(v));
   }
-  // What rounding can have done: to the entries of the matrix, and in its factorisation.
-  double trace = 0;
-  for (int node = 0; node < structure_.nodes(); ++node) {
-    for (int i = structure_.first_row(node); i < structure_.first_row(node + 1); ++i) {
-      const auto place = static_cast<std::size_t>(i);
-      trace += gamma(structure_.row_length(node) + 2) * diagonal[place] * scale_[place] * scale_[place];
-    }
-  }
+  // What rounding can have done to the entries of the matrix: each is a sum over the columns of its row.
   std::vector<double> along(squares_.size(), 0);
   for_each_entry(structure_, [&](std::size_t column, std::size_t place, double entry) {
     along[column] += std::abs(entry) * scale_[place];
   });
   for (std::size_t k = 0; k < along.size(); ++k) along[k] *= squares_[k];
-  std::vector<double> sums = magnitude_product(structure_, along);
-  double widest = 0;
-  for (std::size_t i = 0; i < sums.size(); ++i) widest = std::max(widest, sums[i] * scale_[i]);
-  const double rounding =
-      2 * (2 * trace + gamma(static_cast<double>(structure_.columns() + 8)) * widest) + kTiny;
+  const std::vector<double> sums = magnitude_product(structure_, along);
+  double assembly = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    assembly = std::max(assembly, gamma(row_terms_[i] + 9) * sums[i] * scale_[i]);
   double entries = 0;
   for_each_entry(structure_, [&](std::size_t column, std::size_t place, double) {
     const double error = entry_error_[place] * scale_[place] * centre_.x[column];
     entries += error * error;
   });
-  for (const double share : {0.5, 0.2, 0.02}) {
+  for (const double share : {0.8, 0.5, 0.2}) {
     const double shift = share * estimate;
     if (!cholesky_.factor(squares_, scale_, shift)) continue;
-    const double square = shift - rounding;
+    const double square = shift - widen_ * widen_ * (assembly + factor_rounding()) - kTiny;
     sigma_ = square > 0 ? std::max(0.0, std::sqrt(square) / widen_ - widen_ * std::sqrt(entries)) : 0;
     if (sigma_ > 0) break;
   }
+}
+
+/// What rounding can have done in the factorisation: L Lᵀ differs from the matrix by at most γ |L| |L|ᵀ entry
+/// by entry, γ of the number of terms (Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.3),
+/// so in norm by the largest row sum of that.
+double VerifiedEquations::factor_rounding() const {
+  const std::span<const double> L = cholesky_.values();
+  std::vector<double> column_sums(row_terms_.size(), 0), row_sums(row_terms_.size(), 0);
+  const auto for_each_value = [&](auto visit) {
+    for (int j = 0; j < structure_.nodes(); ++j) {
+      const int n = structure_.node_rows(j);
+      for (int k = structure_.first_block(j); k < structure_.first_block(j + 1); ++k) {
+        const int node = structure_.block_node(k);
+        for (int r = 0; r < structure_.node_rows(node); ++r) {
+          const int end = node == j ? r + 1 : n;  // the rest of a diagonal block is no part of L
+          for (int c = 0; c < end; ++c) {
+            visit(static_cast<std::size_t>(structure_.first_row(node) + r),
+                  static_cast<std::size_t>(structure_.first_row(j) + c),
+                  std::abs(L[static_cast<std::size_t>(structure_.block_value(k) + r * n + c)]));
+          }
+        }
+      }
+    }
+  };
+  for_each_value([&](std::size_t, std::size_t column, double size) { column_sums[column] += size; });
+  for_each_value(
+      [&](std::size_t row, std::size_t column, double size) { row_sums[row] += size * column_sums[column]; });
+  double largest = 0;
+  for (int node = 0; node < structure_.nodes(); ++node) {
+    for (int i = structure_.first_row(node); i < structure_.first_row(node + 1); ++i) {
+      largest =
+          std::max(largest, gamma(structure_.row_length(node) + 4) * row_sums[static_cast<std::size_t>(i)]);
+    }
+  }
+  return widen_ * largest;
 }
 
 VerifiedEquations::LoadProduct VerifiedEquations::load_product(std::span<const double> y) const {

@@ -58,6 +58,7 @@ class VerifiedEquations {
 
  private:
   void bound_singular_value();
+  double factor_rounding() const;
   void bound_strengths();
   /// η of x.
   double shift_of(std::span<const double> x) const;

@@ -382,6 +382,9 @@ inline constexpr double kWallStart = 1e-12;
 /// A quotient this little below a whole number is that number.
 inline constexpr double kWholeNumber = 1e-9;
 
+/// Above this number of unknowns no matrix with a row an unknown is made dense.
+inline constexpr int kMostForDense = 12000;
+
 /// verify solves linear programs of its own, to check intervals, for packings of up to so many unknowns.
 inline constexpr int kMostForPrograms = 3000;
 

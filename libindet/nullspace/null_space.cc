@@ -54,45 +54,36 @@ void decide_by_singular_values(const Eigen::SparseMatrix<double>& matrix, const 
   std::sort(result.independent_rows.begin(), result.independent_rows.end());
 }
 
-RankDecision decide_rank(const Eigen::SparseMatrix<double>& matrix, const SparseQr& qr, double scale) {
-  RankDecision decision;
-  decision.rank = qr.rank();
-  decision.nullity = static_cast<int>(matrix.cols()) - decision.rank;
-  decision.smallest_accepted = qr.smallest_accepted();
-  decision.largest_rejected = qr.dropped_norm();
-  decision.ambiguous = decision.smallest_accepted < tolerance::kRankAccept * scale ||
-                       decision.largest_rejected > tolerance::kNoise * scale;
-  decision.independent_rows = qr.independent_columns();
-  return decision;
-}
-
 }  // namespace
 
 RankDecision decide_rank(const Eigen::SparseMatrix<double>& matrix) {
-  if (matrix.rows() == 0 || matrix.cols() == 0) {
-    RankDecision none;
-    none.nullity = static_cast<int>(matrix.cols());
-    none.smallest_accepted = std::numeric_limits<double>::infinity();
-    return none;
-  }
+  RankDecision decision;
+  decision.nullity = static_cast<int>(matrix.cols());
+  decision.smallest_accepted = std::numeric_limits<double>::infinity();
+  if (matrix.rows() == 0 || matrix.cols() == 0) return decision;
   const double scale = norm_bound(matrix);
-  return decide_rank(matrix, SparseQr(matrix.transpose(), tolerance::kRankReject * scale), scale);
+  decision.qr = std::make_shared<SparseQr>(matrix.transpose(), tolerance::kRankReject * scale);
+  decision.rank = decision.qr->rank();
+  decision.nullity -= decision.rank;
+  decision.smallest_accepted = decision.qr->smallest_accepted();
+  decision.largest_rejected = decision.qr->dropped_norm();
+  decision.ambiguous = decision.smallest_accepted < tolerance::kRankAccept * scale ||
+                       decision.largest_rejected > tolerance::kNoise * scale;
+  decision.independent_rows = decision.qr->independent_columns();
+  return decision;
 }
 
 NullSpace compute_null_space(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& b) {
   NullSpace result;
-  if (matrix.rows() == 0 || matrix.cols() == 0) {
-    result.nullity = static_cast<int>(matrix.cols());
+  static_cast<RankDecision&>(result) = decide_rank(matrix);
+  if (!result.qr) {
     result.basis = Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols());
     result.particular = Eigen::VectorXd::Zero(matrix.cols());
-    result.smallest_accepted = std::numeric_limits<double>::infinity();
     if (b.size() > 0 && b.cwiseAbs().maxCoeff() > 0) result.unbalanced = -b;
     return result;
   }
   const double scale = norm_bound(matrix);
-  result.qr = std::make_shared<SparseQr>(matrix.transpose(), tolerance::kRankReject * scale);
   const SparseQr& qr = *result.qr;
-  static_cast<RankDecision&>(result) = decide_rank(matrix, qr, scale);
   if (result.ambiguous && std::max(matrix.rows(), matrix.cols()) <= kDenseLimit) {
     decide_by_singular_values(matrix, b, scale, result);
   } else {

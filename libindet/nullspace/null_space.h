@@ -20,6 +20,9 @@ struct RankDecision {
   bool ambiguous = false;        ///< some singular value lies between tolerance::kRankReject and kRankAccept
   std::vector<int> independent_rows;  ///< `rank` rows of c that span its row space
 
+  /// The decomposition of Aᵀ on which all this rests; none if A has no entries.
+  std::shared_ptr<const SparseQr> qr;
+
   double rank_gap() const { return smallest_accepted / largest_rejected; }
 };
 
@@ -38,8 +41,6 @@ struct NullSpace : RankDecision {
   /// Where b is not in the range of A: the part of −b that no contact force can balance, a left null vector
   /// of A. Empty if balanced.
   Eigen::VectorXd unbalanced;
-  /// The decomposition of Aᵀ on which all this rests; none if A has no entries.
-  std::shared_ptr<const SparseQr> qr;
 };
 
 /// Precondition: b.size() = matrix.rows().

@@ -3,33 +3,64 @@
 #include <algorithm>
 #include <utility>
 
-#include "libindet/exact/certificate.h"
+#include "libindet/polytope/motion_rows.h"
+#include "libindet/polytope/sparse_decision.h"
 
 namespace indet {
+namespace {
 
-std::optional<ForcePolytope> find_central_polytope(const Packing& packing) {
-  ForcePolytope polytope;
-  polytope.natural = pose_equilibrium(packing);
-  const RankDecision rank = decide_rank(polytope.natural.matrix);
-  if (rank.ambiguous || rank.nullity == 0 || rank.rank == 0) return {};
-  auto central = std::make_shared<const CentralPolytope>(polytope.natural, rank.independent_rows);
-  if (!central->is_proven()) return {};
-  if (rank.rank < polytope.natural.equations()) {
-    // The rows that were kept are independent; that the others follow from them is for exact arithmetic to
-    // say.
-    polytope.exact = std::make_shared<exact::ContactProblem>(packing);
-    if (!exact::proves_structure(*polytope.exact, {}, rank.rank)) return {};
-  }
-  polytope.problem = polytope.natural;
-  polytope.natural_null_space = polytope.null_space =
-      std::make_shared<NullSpace>(NullSpace{rank, {}, {}, {}, {}, {}});
-  polytope.status = PolytopeStatus::kBounded;
-  polytope.dim = rank.nullity;
+std::shared_ptr<const NullSpace> without_kernel(const RankDecision& rank) {
+  auto null_space = std::make_shared<NullSpace>();
+  static_cast<RankDecision&>(*null_space) = rank;
+  return null_space;
+}
+
+void set_centre(std::shared_ptr<const CentralPolytope> central, ForcePolytope& polytope) {
   const std::vector<double>& x = central->centre.x;
   polytope.interior = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   polytope.interior_slack = std::min(1.0, polytope.interior.minCoeff());
   polytope.central = std::move(central);
+}
+
+/// What decide_sparsely proves.
+std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, ForcePolytope polytope) {
+  SparseDecision decision = decide_sparsely(packing);
+  if (!decision.decided || decision.rank_ambiguous || decision.proof == SparseDecision::Proof::kNone)
+    return {};
+  polytope.problem = std::move(decision.problem);
+  polytope.status = decision.status;
+  polytope.dim = decision.dim;
+  polytope.interior = decision.interior;
+  polytope.ray = decision.ray;
+  if (decision.status == PolytopeStatus::kEmpty) set_motion(polytope.problem, decision.motion, polytope);
+  if (decision.status != PolytopeStatus::kBounded && decision.status != PolytopeStatus::kPoint)
+    return polytope;
+  auto central = std::make_shared<const CentralPolytope>(polytope.problem, decision.independent_rows);
+  if (!central->is_proven()) return {};
+  set_centre(std::move(central), polytope);
   return polytope;
+}
+
+}  // namespace
+
+std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing) {
+  ForcePolytope polytope;
+  polytope.natural = pose_equilibrium(packing);
+  const RankDecision rank = decide_rank(polytope.natural.matrix);
+  if (rank.ambiguous) return {};
+  polytope.natural_null_space = polytope.null_space = without_kernel(rank);
+  // Most packings: the centre by itself proves all there is to decide.
+  if (rank.rank == polytope.natural.equations() && rank.rank > 0) {
+    auto central = std::make_shared<const CentralPolytope>(polytope.natural, rank.independent_rows);
+    if (central->is_proven()) {
+      polytope.problem = polytope.natural;
+      polytope.dim = rank.nullity;
+      polytope.status = polytope.dim > 0 ? PolytopeStatus::kBounded : PolytopeStatus::kPoint;
+      set_centre(std::move(central), polytope);
+      return polytope;
+    }
+  }
+  return find_decided_polytope(packing, std::move(polytope));
 }
 
 bool add_centre(ForcePolytope& polytope) {

@@ -36,10 +36,10 @@ struct CentralPolytope {
   std::optional<barrier::VerifiedEquations> equations;
 };
 
-/// The polytope of a packing by the barrier method alone, where that proves all there is to decide: it is
-/// bounded, no edge is closed, and the rank is certain. Nothing otherwise, and find_force_polytope has to
-/// decide. Precondition: find_defect(packing) is empty.
-std::optional<ForcePolytope> find_central_polytope(const Packing& packing);
+/// The polytope of a packing without any dense matrix, where this way proves what it is: bounded or a point,
+/// with its centre; unbounded, with a ray; empty, with a motion. Nothing where it does not, and
+/// find_force_polytope has to decide. Precondition: find_defect(packing) is empty.
+std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing);
 
 /// Adds the centre to a polytope that find_force_polytope has found. Returns whether it is there: F is
 /// bounded, and the centre proven.

@@ -12,56 +12,10 @@
 #include "libindet/lp/vertex.h"
 #include "libindet/polytope/blocks.h"
 #include "libindet/polytope/interior.h"
+#include "libindet/polytope/motion_rows.h"
 
 namespace indet {
 namespace {
-
-/// What a multiplier of one row says about bounds written as F − s = lo, F + s = hi: the row s + s′ = hi − lo
-/// is the difference of both.
-template <class Add>
-void add_multiplier(const EquilibriumProblem& problem, int bound, double value, Add add) {
-  add(bound, value);
-  if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower()) add(bound - 1, -value);
-}
-
-/// Spreads a motion of the equations' rows over disks, walls and the cell; largest entry 1.
-void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
-  polytope.motion.setZero(problem.disks, 3);
-  const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),
-                                      [](const EquilibriumRow& row) { return row.body.is_wall(); });
-  polytope.wall_motion.setZero(walls_move ? problem.walls : 0, 2);
-  polytope.bound_multipliers.setZero(static_cast<Eigen::Index>(problem.bounds.size()));
-  const bool cell_moves = std::any_of(problem.rows.begin(), problem.rows.end(),
-                                      [](const EquilibriumRow& row) { return row.body.is_cell(); });
-  const double largest = rows.lpNorm<Eigen::Infinity>();
-  if (cell_moves) {
-    polytope.cell_motion = problem.compression_of(rows / largest).unaryExpr([](double rate) {
-      return std::abs(rate) > tolerance::kMotionEntry ? rate : 0;
-    });
-  }
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    if (row.bound >= 0) {
-      add_multiplier(problem, row.bound, rows[i] / largest,
-                     [&](int bound, double value) { polytope.bound_multipliers[bound] += value; });
-      continue;
-    }
-    if (row.body.is_cell()) continue;
-    // Entries at the level of rounding say nothing about which body moves.
-    const double velocity = std::abs(rows[i] / largest) > tolerance::kMotionEntry ? rows[i] / largest : 0;
-    if (row.body.is_wall()) {
-      polytope.wall_motion(row.body.wall_id().value(), row.component) = velocity;
-    } else {
-      polytope.motion(row.body.disk_id().value(), row.component) = velocity;
-    }
-  }
-}
-
-/// What is left of a contact when the edge of the given sign is closed.
-ContactMode close_edge(ContactMode mode, int sign) {
-  if (mode != ContactMode::kStick) return ContactMode::kOpen;
-  return sign > 0 ? ContactMode::kSlideMinus : ContactMode::kSlidePlus;
-}
 
 SlopeView slope_view(const EquilibriumProblem& problem, const NullSpace& null_space) {
   SlopeView view;
@@ -74,30 +28,6 @@ SlopeView slope_view(const EquilibriumProblem& problem, const NullSpace& null_sp
 bool is_doubtful(const InteriorPoint& interior, bool is_zero, double scale) {
   if (is_zero) return std::max(std::abs(interior.slack), interior.infeasibility) > tolerance::kNoise * scale;
   return interior.infeasibility > 0.5 * std::abs(interior.slack);
-}
-
-/// A motion of the equations' rows, on the rows of the exact problem, largest entry 1.
-std::vector<double> on_exact_rows(const exact::ContactProblem& exact, const EquilibriumProblem& problem,
-                                  const Eigen::VectorXd& motion) {
-  std::vector<double> result(static_cast<std::size_t>(exact.rows()), 0);
-  const double largest = motion.lpNorm<Eigen::Infinity>();
-  for (Eigen::Index i = 0; i < motion.size(); ++i) {
-    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    if (row.bound >= 0) {
-      add_multiplier(problem, row.bound, motion[i] / largest, [&](int bound, double value) {
-        result[static_cast<std::size_t>(exact.row_of_bound(bound))] += value;
-      });
-      continue;
-    }
-    const int number = exact.row(row.body, row.component);
-    if (number < 0) continue;
-    const bool turns = !row.body.is_cell() && row.component == 2;
-    const double scale = row.body.is_cell() ? exact.compression_scale()
-                         : turns            ? exact.spin_scale(row.body.disk_id())
-                                            : 1;
-    result[static_cast<std::size_t>(number)] = motion[i] / largest * scale;
-  }
-  return result;
 }
 
 /// A full-dimensional set with a point in its interior.
@@ -119,8 +49,8 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     const auto prove_emptiness = [&](const Eigen::VectorXd& motion) {
       set_motion(problem, motion, polytope);
       polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, {}) ||
-                          !exact::proves_emptiness(exact, on_exact_rows(exact, problem, motion), closings,
-                                                   tolerance::kExactZero);
+                          !exact::proves_emptiness(exact, motion_on_exact_rows(exact, problem, motion),
+                                                   closings, tolerance::kExactZero);
     };
     if (null_space.unbalanced.size() > 0) {
       prove_emptiness(null_space.unbalanced);
@@ -150,7 +80,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     }
     std::vector<ContactMode> modes = problem.modes;
     std::vector<int> closed_bounds;
-    exact::Closing closing{{}, on_exact_rows(exact, problem, motion)};
+    exact::Closing closing{{}, motion_on_exact_rows(exact, problem, motion)};
     const double significant = interior.multipliers.maxCoeff() * tolerance::kClosingMultiplier;
     for (int k = 0; k < view.inequalities(); ++k) {
       if (interior.multipliers[k] <= significant) continue;
@@ -161,7 +91,7 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
         continue;
       }
       ContactMode& mode = modes[static_cast<std::size_t>(edge.contact.value())];
-      mode = close_edge(mode, edge.sign);
+      mode = without_edge(mode, edge.sign);
     }
     if (closing.edges.empty() && !problem.bounds.empty()) {
       throw InputError(

@@ -1,6 +1,54 @@
 #include "libindet/polytope/motion_rows.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "libindet/base/tolerances.h"
+
 namespace indet {
+namespace {
+
+/// What a multiplier of one row says about bounds written as F − s = lo, F + s = hi: the row s + s′ = hi − lo
+/// is the difference of both.
+template <class Add>
+void add_multiplier(const EquilibriumProblem& problem, int bound, double value, Add add) {
+  add(bound, value);
+  if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower()) add(bound - 1, -value);
+}
+
+}  // namespace
+
+void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
+  polytope.motion.setZero(problem.disks, 3);
+  const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),
+                                      [](const EquilibriumRow& row) { return row.body.is_wall(); });
+  polytope.wall_motion.setZero(walls_move ? problem.walls : 0, 2);
+  polytope.bound_multipliers.setZero(static_cast<Eigen::Index>(problem.bounds.size()));
+  const bool cell_moves = std::any_of(problem.rows.begin(), problem.rows.end(),
+                                      [](const EquilibriumRow& row) { return row.body.is_cell(); });
+  const double largest = rows.lpNorm<Eigen::Infinity>();
+  if (cell_moves) {
+    polytope.cell_motion = problem.compression_of(rows / largest).unaryExpr([](double rate) {
+      return std::abs(rate) > tolerance::kMotionEntry ? rate : 0;
+    });
+  }
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
+    if (row.bound >= 0) {
+      add_multiplier(problem, row.bound, rows[i] / largest,
+                     [&](int bound, double value) { polytope.bound_multipliers[bound] += value; });
+      continue;
+    }
+    if (row.body.is_cell()) continue;
+    // Entries at the level of rounding say nothing about which body moves.
+    const double velocity = std::abs(rows[i] / largest) > tolerance::kMotionEntry ? rows[i] / largest : 0;
+    if (row.body.is_wall()) {
+      polytope.wall_motion(row.body.wall_id().value(), row.component) = velocity;
+    } else {
+      polytope.motion(row.body.disk_id().value(), row.component) = velocity;
+    }
+  }
+}
 
 std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
                                          const EquilibriumProblem& problem, const Eigen::VectorXd& motion) {
@@ -10,10 +58,9 @@ std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
     const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
     const double velocity = motion[i] / largest;
     if (row.bound >= 0) {
-      // Bounds are F − s = lo, F + s = hi there; the row s + s′ = hi − lo is the difference of both.
-      result[static_cast<std::size_t>(exact.row_of_bound(row.bound))] += velocity;
-      if (problem.bounds[static_cast<std::size_t>(row.bound)].follows_lower())
-        result[static_cast<std::size_t>(exact.row_of_bound(row.bound - 1))] -= velocity;
+      add_multiplier(problem, row.bound, velocity, [&](int bound, double value) {
+        result[static_cast<std::size_t>(exact.row_of_bound(bound))] += value;
+      });
       continue;
     }
     const int number = exact.row(row.body, row.component);

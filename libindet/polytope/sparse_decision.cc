@@ -12,7 +12,7 @@
 #include "libindet/barrier/verified_motion.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
-#include "libindet/nullspace/sparse_qr.h"
+#include "libindet/nullspace/null_space.h"
 #include "libindet/polytope/motion_rows.h"
 
 namespace indet {
@@ -23,15 +23,6 @@ using barrier::BlockStructure;
 using barrier::Boundedness;
 using barrier::Feasibility;
 using Proof = SparseDecision::Proof;
-
-/// ‖A‖₂ ≤ √(‖A‖₁ ‖A‖_∞): the scale against which singular values count as zero.
-double norm_bound(const Eigen::SparseMatrix<double>& matrix) {
-  const Eigen::SparseMatrix<double> sizes = matrix.cwiseAbs();
-  const Eigen::VectorXd rows = sizes * Eigen::VectorXd::Ones(sizes.cols());
-  const Eigen::VectorXd columns = sizes.transpose() * Eigen::VectorXd::Ones(sizes.rows());
-  const double bound = std::sqrt(rows.maxCoeff() * columns.maxCoeff());
-  return bound > 0 ? bound : 1;
-}
 
 /// The rank of the equations, and whether some part of the load is outside their range.
 struct Equations {
@@ -44,15 +35,14 @@ Equations examine(const EquilibriumProblem& problem) {
   Equations result;
   const Eigen::SparseMatrix<double>& A = problem.matrix;
   const Eigen::VectorXd b = problem.load();
-  if (A.rows() == 0 || A.cols() == 0) {
+  RankDecision rank = decide_rank(A);
+  result.ambiguous = rank.ambiguous;
+  result.independent = std::move(rank.independent_rows);
+  if (!rank.qr) {
     if (b.size() > 0 && b.lpNorm<Eigen::Infinity>() > 0) result.unbalanced = -b;
     return result;
   }
-  const double scale = norm_bound(A);
-  const SparseQr qr(A.transpose(), tolerance::kRankReject * scale);
-  result.independent = qr.independent_columns();
-  result.ambiguous = qr.smallest_accepted() < tolerance::kRankAccept * scale ||
-                     qr.dropped_norm() > tolerance::kNoise * scale;
+  const SparseQr& qr = *rank.qr;
   if (static_cast<Eigen::Index>(result.independent.size()) == A.rows()) return result;
   Eigen::VectorXd u = qr.solve_transposed(b);
   u += qr.solve_transposed(b - A * u);
@@ -117,7 +107,7 @@ class ExactProofs {
 
  private:
   /// Modulo a prime a sparse factorisation costs as much less than rational numbers do.
-  static constexpr int kModularRows = 50;
+  static constexpr int kModularRows = 250;
 
   const exact::ContactProblem& exact() {
     if (!exact_) exact_.emplace(packing_);
@@ -153,12 +143,17 @@ void close_edges(const Feasibility& feasibility, const BlockStructure& structure
 }
 
 /// That x > 0 is near a state, that the rank is right, and what follows from y or the ray.
-void prove_states(const BlockStructure& structure, const std::vector<double>& x, const std::vector<double>& y,
-                  ExactProofs& exact, SparseDecision& decision) {
+void prove_states(const BlockStructure& structure, BlockCholesky& cholesky, const std::vector<double>& x,
+                  const std::vector<double>& y, ExactProofs& exact, SparseDecision& decision) {
+  // The centre is the best point to prove it from, where there is one.
   barrier::AnalyticCentre point;
-  point.x = x;
-  point.y = y;
-  point.y.resize(static_cast<std::size_t>(structure.rows()), 0.0);
+  if (decision.status != PolytopeStatus::kUnbounded)
+    point = barrier::find_analytic_centre(structure, cholesky);
+  if (!point.found) {
+    point.x = x;
+    point.y = y;
+    point.y.resize(static_cast<std::size_t>(structure.rows()), 0.0);
+  }
   const barrier::VerifiedEquations equations(decision.problem, structure, point);
   if (!(equations.smallest_singular_value() > 0)) return;
   if (decision.status == PolytopeStatus::kBounded && !equations.is_proven()) return;
@@ -235,7 +230,7 @@ SparseDecision decide_sparsely(const Packing& packing, int exact_rows) {
       if (boundedness.bounded) decision.bounding = on_equations(problem, structure, boundedness.y);
       decision.ray = as_vector(boundedness.ray);
     }
-    if (decision.decided) prove_states(structure, feasibility.x, boundedness.y, exact, decision);
+    if (decision.decided) prove_states(structure, cholesky, feasibility.x, boundedness.y, exact, decision);
     return decision;
   }
 }

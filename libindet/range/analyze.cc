@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
 #include "libindet/polytope/central_polytope.h"
@@ -85,11 +87,20 @@ IntervalOptions interval_options(const AnalyzeOptions& options) {
   return intervals;
 }
 
-/// The polytope in the form that the method works on. Where the barrier method finds no centre, the decision
-/// is left to linear programs, and so is the rest unless F is bounded after all.
+/// The polytope in the form that the method works on. Where the barrier method cannot decide, linear programs
+/// do, and they find the values, too, unless F is bounded after all. So they do where F is unbounded, in a
+/// packing that is small enough for their dense matrices.
 ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& options, MethodChoice& choice) {
   if (choice.method != Method::kBarrier) return find_force_polytope(packing, options.lp);
-  if (auto central = find_central_polytope(packing)) return std::move(*central);
+  std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
+  const bool is_large = 2 * packing.contact_count() > tolerance::kMostForDense;
+  if (sparse && (is_large || sparse->central || sparse->status == PolytopeStatus::kEmpty))
+    return std::move(*sparse);
+  if (!sparse && is_large)
+    throw LibraryError(
+        "double precision does not tell whether contact forces balance here, or whether they stay "
+        "bounded, and exact arithmetic is too slow for " +
+        std::to_string(packing.contact_count()) + " contacts");
   ForcePolytope polytope = find_force_polytope(packing, options.lp);
   if (!add_centre(polytope)) {
     choice.method = Method::kLp;

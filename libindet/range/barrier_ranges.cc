@@ -30,6 +30,8 @@ class BarrierSearch {
   }
 
   BarrierRanges run() {
+    if (polytope_.status == PolytopeStatus::kEmpty) return without_states(Outcome::kNotRequested);
+    if (!polytope_.central) return without_states(Outcome::kFailed);
     list_contacts();
     list_reactions();
     const std::vector<ValueInterval> intervals = enclose_least_values(polytope_, objectives_, options_);
@@ -39,6 +41,19 @@ class BarrierSearch {
   }
 
  private:
+  /// The method has no values.
+  BarrierRanges without_states(Outcome outcome) {
+    for (const int i : contacts_) result_.extrema.claim.row(i) = outcome;
+    result_.reactions.outcome.setConstant(outcome);
+    for (std::size_t k = 0; k < sums_.size(); ++k) describe(k);
+    return std::move(result_);
+  }
+
+  void describe(std::size_t k) {
+    result_.reactions.body[static_cast<Eigen::Index>(k)] = sums_[k].body.code();
+    result_.reactions.component[static_cast<Eigen::Index>(k)] = sums_[k].component;
+  }
+
   void prepare() {
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
     Extrema& extrema = result_.extrema;
@@ -50,7 +65,7 @@ class BarrierSearch {
     for (auto* table : {&extrema.dual_residual, &extrema.ray_residual}) table->setConstant(count, 4, kNaN);
     extrema.states.resize(0, 2 * count);
     extrema.rays.resize(0, 2 * count);
-    extrema.active.resize(0, polytope_.dim);
+    extrema.active.resize(0, std::max(0, polytope_.dim));
     extrema.gap = options_.gap;
     Enclosures& enclosures = result_.enclosures;
     for (auto* table : {&enclosures.lower, &enclosures.upper, &enclosures.sensitivity})
@@ -99,8 +114,7 @@ class BarrierSearch {
     for (std::size_t k = 0; k < sums_.size(); ++k) {
       const ReactionSum& sum = sums_[k];
       const auto row = static_cast<Eigen::Index>(k);
-      result_.reactions.body[row] = sum.body.code();
-      result_.reactions.component[row] = sum.component;
+      describe(k);
       barrier::Objective objective;
       for (int column = 0; column < problem_.unknowns(); ++column) {
         const Edge& edge = problem_.edge(column);

@@ -20,7 +20,8 @@ struct BarrierRanges {
 };
 
 /// `contacts`: ascending. A value that is 0 in all states, because no edge of its contact is open, needs no
-/// search. Precondition: polytope.central. Throws Interrupted.
+/// search. Where F is empty there are no values, where it is unbounded
+/// all are kFailed. Throws Interrupted.
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
                                   const std::vector<int>& contacts, const IntervalOptions& options);
 
