@@ -203,19 +203,19 @@ std::string capitalised(std::string text) {
 }
 
 /// Which of the states that attain an optimum dR and dT are the distances of.
-struct StateChoice {
+struct WhichStates {
   const char* name;
   const char* which;
   const char* normal;
   const char* tangential;
 };
-constexpr StateChoice kCanonicalChoice = {"canonical states", kCanonical, "d_R", "d_T"};
-constexpr StateChoice kSolverChoice = {"solver's vertices", kSolver, "solver_d_R", "solver_d_T"};
-constexpr StateChoice kWalkChoice = {"the paper's walk", kWalk, "paper_d_R", "paper_d_T"};
+constexpr WhichStates kCanonicalChoice = {"canonical states", kCanonical, "d_R", "d_T"};
+constexpr WhichStates kSolverChoice = {"solver's vertices", kSolver, "solver_d_R", "solver_d_T"};
+constexpr WhichStates kWalkChoice = {"the paper's walk", kWalk, "paper_d_R", "paper_d_T"};
 
 /// One panel for each choice.
 Figure global(const Samples& samples, const char* id, const char* title,
-              const std::vector<StateChoice>& choices) {
+              const std::vector<WhichStates>& choices) {
   Figure figure{.id = id,
                 .title = title,
                 .caption =
@@ -225,7 +225,7 @@ Figure global(const Samples& samples, const char* id, const char* title,
                 .claim = "Two maxima: near 0, and at about 60 mg (CD) and 75 mg (MD).",
                 .finding = "Main maximum, sought from a twentieth of the 99 % quantile to that quantile. ",
                 .panels = {}};
-  for (const StateChoice& choice : choices) {
+  for (const WhichStates& choice : choices) {
     const std::vector<Curve> curves = pair_of_methods(samples, choice.normal, choice.tangential);
     const double high = end_of_axis(curves);
     figure.panels.push_back(panel_of(curves, "dR, dT (mg)", false, high, round_width(high, 40)));
@@ -347,7 +347,7 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
   if (!samples.has(kFourProtocols) || tables.contacts.rows() == 0) return figures;
   for (Figure& figure : dimensions(tables)) figures.push_back(std::move(figure));
   figures.push_back(local(samples));
-  std::vector<StateChoice> choices = {kCanonicalChoice};
+  std::vector<WhichStates> choices = {kCanonicalChoice};
   if (samples.has_paper_walk()) choices.insert(choices.begin(), kWalkChoice);
   figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", choices));
   if (samples.has_solver_states())
