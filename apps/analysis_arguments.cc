@@ -74,6 +74,37 @@ ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
   return choice;
 }
 
+StateChoice parse_states(const AnalysisArguments& arguments, int contacts) {
+  StateChoice choice =
+      options_for(arguments.accuracy == "fast" ? Accuracy::kFast : Accuracy::kStandard).states;
+  choice.within_limit = arguments.states == "auto";
+  for (const StateChoice::Kind kind : kStateKinds) {
+    if (arguments.states == to_string(kind)) choice.kind = kind;
+  }
+  const std::string& text = arguments.states_of;
+  if (text == "all") return choice;
+  if (choice.kind == StateChoice::Kind::kNone)
+    throw UsageError(
+        fmt::format("--states-of {} has no effect with --extremal-states none, which keeps no states", text));
+  const std::string prefix = "largest:";
+  if (text.starts_with(prefix)) {
+    const std::optional<int> count = parse_count(text.substr(prefix.size()));
+    if (!count || *count == 0)
+      throw UsageError(fmt::format("--states-of {}: expected a number of contacts from 1 on", text));
+    choice.contacts = StateChoice::Contacts::kLargest;
+    choice.largest = *count;
+    return choice;
+  }
+  if (text.find_first_not_of("0123456789,-") != std::string::npos)
+    throw UsageError(
+        fmt::format("--states-of {}: expected all, largest:K (the K contacts of largest δR + δT), or a list "
+                    "like 3,7,12-20",
+                    text));
+  choice.contacts = StateChoice::Contacts::kList;
+  choice.list = parse_contact_list("--states-of", text, text, contacts);
+  return choice;
+}
+
 std::optional<Formulation> parse_formulation(const std::string& name) {
   for (const Formulation formulation : {Formulation::kNullSpace, Formulation::kDual, Formulation::kEdge}) {
     if (name == to_string(formulation)) return formulation;
@@ -117,12 +148,21 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
       ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
       ->capture_default_str();
   command
-      .add_option(
-          "--extremal-states", arguments.states,
-          "Which state to store where many attain the same extremum. canonical: the one of smallest total "
-          "normal force; solver: the one the solver happens to find; auto: canonical, but solver with "
-          "--accuracy fast")
-      ->check(CLI::IsMember({"auto", "canonical", "solver"}))
+      .add_option("--extremal-states", arguments.states,
+                  "Which extremal states to store. canonical: where many attain the same extremum, the one "
+                  "of smallest "
+                  "total normal force; solver: the one the solver happens to find; none: none, only what is "
+                  "found out "
+                  "about the values (then dR and dT are not known); auto: canonical, but solver with "
+                  "--accuracy fast, "
+                  "and none where those of all contacts could take more than 100 MB (from 1251 contacts on)")
+      ->check(CLI::IsMember({"auto", "none", "canonical", "solver"}))
+      ->capture_default_str();
+  command
+      .add_option("--states-of", arguments.states_of,
+                  "Of which contacts to store the extremal states: all; largest:K, that is the K contacts of "
+                  "largest δR + δT; or a list like 3,7,12-20 (numbered from 0)")
+      ->type_name("all|largest:K|LIST")
       ->capture_default_str();
   command
       .add_option("--neighbour", arguments.neighbour,
@@ -150,10 +190,12 @@ void require_no_walk(const AnalysisArguments& arguments) {
 }
 
 AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const Context& context) {
-  AnalyzeOptions options = options_for(arguments.accuracy == "fast" ? Accuracy::kFast : Accuracy::kStandard);
+  AnalyzeOptions options;
   options.contacts = parse_contacts(arguments, contacts);
   options.formulation = parse_formulation(arguments.formulation);
-  if (arguments.states != "auto") options.canonical_states = arguments.states == "canonical";
+  options.states = parse_states(arguments, contacts);
+  if (const auto reason = options.states.defect(chosen_contacts(options.contacts, contacts)))
+    throw UsageError(fmt::format("--states-of {}: {}", arguments.states_of, *reason));
   if (arguments.neighbour) options.paper.neighbour = value_of(*arguments.neighbour, kNeighbourRules);
   if (arguments.start) options.paper.start = value_of(*arguments.start, kWalkStarts);
   options.paper.seed = static_cast<std::int64_t>(arguments.seed);

@@ -20,6 +20,7 @@ struct AnalysisArguments {
   std::uint64_t seed = 1;
   std::string formulation = "auto";
   std::string states = "auto";
+  std::string states_of = "all";
   std::optional<std::string> neighbour, start;  ///< of the walks of pivoting-paper
 };
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -17,6 +16,8 @@
 #include "apps/command.h"
 #include "apps/condition.h"
 #include "apps/contradiction.h"
+#include "apps/exact_analysis.h"
+#include "apps/kept_states.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
@@ -26,7 +27,6 @@
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/lp/glpk_problem.h"
-#include "libindet/verify/exact_check.h"
 
 namespace indet::app {
 namespace {
@@ -137,6 +137,8 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                {"expected_dim", packing.expected_dimension()},
                {"unique", ranges.unique.cast<int>().sum()},
                {"states", ranges.states.rows()},
+               {"extremal_states", to_string(ranges.state_kind)},
+               {"states_of", to_string(ranges.states_of)},
                {"widest_enclosure", json_number(firmness(ranges).widest_enclosure)},
                {"infinite_enclosures", firmness(ranges).half_open},
                {"sensitivity", json_number(firmness(ranges).sensitivity)},
@@ -269,9 +271,9 @@ void print_quality(const ForceRanges& ranges) {
     fmt::print("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
                kTurn * firm.sensitivity);
   const int unique = ranges.unique.cast<int>().sum();
-  fmt::print("found by {}; {}; {} of {} {} attained by a single state\n", describe_method(ranges),
-             counted(ranges.states.rows(), "extremal state"), unique,
+  fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
              counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
+  fmt::print("{}\n", describe_kept_states(ranges));
 }
 
 void print_summary(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
@@ -310,26 +312,16 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     fmt::print("\nindeterminacy (mg)\n");
     line("δR", ranges.delta_R);
     line("δT", ranges.delta_T);
-    line("dR", ranges.d_R);
-    line("dT", ranges.d_T);
+    if (ranges.states.rows() > 0) {
+      line("dR", ranges.d_R);
+      line("dT", ranges.d_T);
+    }
     if (ranges.choice == ContactChoice::Kind::kSample) print_sample(packing, ranges);
     print_extremes(packing, ranges);
   }
   double total = 0;
   for (const auto& [stage, seconds] : ranges.seconds) total += seconds;
   fmt::print("\nwritten to {} ({:.2f} s)\n", output, total);
-}
-
-/// --accuracy exact: every result again in rational arithmetic.
-ForceRanges prove(const Packing& packing, const Context& context, const ForceRanges& ranges) {
-  const auto start = std::chrono::steady_clock::now();
-  ExactCheckOptions options;
-  options.threads = context.thread_count();
-  options.progress = context.progress();
-  ForceRanges proven = adopt_exact(packing, check_exactly(packing, ranges, options), ranges);
-  proven.seconds["exact arithmetic"] =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return proven;
 }
 
 int run(const AnalyzeCommand& options, const Context& context) {
@@ -345,8 +337,8 @@ int run(const AnalyzeCommand& options, const Context& context) {
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
     throw UsageError(
         "--formulation has no effect with --method pivoting-tableau, which solves no linear programs");
-  ForceRanges ranges = analyze(packing, analysis);
-  if (is_exact(options.arguments)) ranges = prove(packing, context, ranges);
+  const ForceRanges ranges =
+      is_exact(options.arguments) ? analyze_exactly(packing, analysis, context) : analyze(packing, analysis);
 
   Provenance provenance;
   provenance.arguments = context.arguments;

@@ -148,7 +148,8 @@ void print_table(const std::vector<Entry>& entries) {
   print_row("failed", entries, count(&ForceRanges::failed));
   print_row("largest difference from lp (mg)", entries,
             [](const Entry& e) { return fmt::format("{:.1e}", e.comparison.worst_difference); });
-  print_row("same extremal state as lp", entries, [](const Entry& e) {
+  print_row("same extremal state as lp", entries, [](const Entry& e) -> std::string {
+    if (e.ranges.state_kind == StateChoice::Kind::kNone) return "none kept";
     return fmt::format("{} of {}", e.comparison.same_states, e.comparison.states);
   });
   print_row("searches (linear programs, walks)", entries, count(&ForceRanges::solves));

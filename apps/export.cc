@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/kept_states.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "libindet/base/error.h"
@@ -83,13 +84,23 @@ ChosenState choose_state(const ExportOptions& options, const Packing& packing,
   }
   const ForceRanges& r = need_ranges(ranges, options.file, "--state " + options.state);
   const auto row = [&](std::int64_t k, const std::string& description) -> ChosenState {
+    const bool keeps_all =
+        r.state_kind != StateChoice::Kind::kNone && r.states_of == StateChoice::Contacts::kAll;
+    if ((k < 0 || k >= r.states.rows()) && !keeps_all) {
+      throw InputError(fmt::format("{}: there is no extremal state for --state {}: {}", options.file,
+                                   options.state, describe_missing_states(r)));
+    }
     if (k < 0 || k >= r.states.rows()) {
       throw InputError(fmt::format("{}: there is no extremal state for --state {}; the file has {}",
                                    options.file, options.state, counted(r.states.rows(), "extremal state")));
     }
     return {r.states.row(k).transpose(), description};
   };
-  if (name.kind == "max-norm") return row(r.largest_norm, "extremal state of largest norm");
+  if (name.kind == "max-norm") {
+    return row(r.largest_norm,
+               fmt::format("extremal state of largest norm{}",
+                           r.states_of == StateChoice::Contacts::kAll ? "" : " of those kept"));
+  }
   if (name.kind == "state") return row(name.number, fmt::format("extremal state {}", name.number));
   if (name.number >= packing.contact_count()) {
     throw InputError(

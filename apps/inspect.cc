@@ -18,6 +18,7 @@
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/file_contents.h"
+#include "apps/kept_states.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
@@ -113,6 +114,8 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
     json["ranges_sha256"] = contents.digests.ranges;
     json["ranges"] = summary_to_json(r);
     json["ranges"].update({{"states", r.states.rows()},
+                           {"extremal_states", to_string(r.state_kind)},
+                           {"states_of", to_string(r.states_of)},
                            {"mean_delta_R", json_number(extremes(r.delta_R).mean())},
                            {"max_delta_R", json_number(largest(r.delta_R))},
                            {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
@@ -275,9 +278,11 @@ void print_ranges(const ForceRanges& r) {
                                         r.worst_primal_residual, r.worst_dual_residual));
   print_line("  δR (mg)", measure(r.delta_R));
   print_line("  δT (mg)", measure(r.delta_T));
-  print_line("  dR (mg)", measure(r.d_R));
-  print_line("  dT (mg)", measure(r.d_T));
-  print_line("  extremal states", fmt::format("{}", r.states.rows()));
+  if (r.states.rows() > 0) {
+    print_line("  dR (mg)", measure(r.d_R));
+    print_line("  dT (mg)", measure(r.d_T));
+  }
+  if (r.status != PolytopeStatus::kEmpty) print_line("  extremal states", describe_kept_states(r));
   print_line("  found by", fmt::format("{}: {}, {}", describe_method(r),
                                        counted(r.solves, "search", "searches"), counted(r.pivots, "pivot")));
 }

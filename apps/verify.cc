@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/exact_analysis.h"
 #include "apps/packing_input.h"
 #include "libindet/io/bias_file.h"
 #include "libindet/io/packing_file.h"
@@ -169,7 +170,8 @@ int run(const VerifyCommand& options, const Context& context) {
     ExactCheckOptions exact;
     exact.threads = context.thread_count();
     exact.progress = context.progress();
-    check = check_exactly(read_packing(file), *ranges, exact);
+    const Packing packing = read_packing(file);
+    check = check_exactly(packing, with_states(packing, *ranges, context), exact);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   const bool passed = result.passed() && (!check || check->passed());

@@ -34,6 +34,8 @@ constexpr std::array kChoices = {ContactChoice::Kind::kAll, ContactChoice::Kind:
 constexpr const auto& values_of(Method) { return kMethods; }
 constexpr const auto& values_of(NeighbourRule) { return kNeighbourRules; }
 constexpr const auto& values_of(WalkStart) { return kWalkStarts; }
+constexpr const auto& values_of(StateChoice::Kind) { return kStateKinds; }
+constexpr const auto& values_of(StateChoice::Contacts) { return kKindsOfStateContacts; }
 constexpr const auto& values_of(PolytopeStatus) { return kStatuses; }
 constexpr const auto& values_of(ContactChoice::Kind) { return kChoices; }
 
@@ -133,8 +135,11 @@ class FieldReader {
 
  private:
   bool is_stored(const Field& field) const {
-    // A file of all contacts does not say so, and one of an earlier version not by which method, or how.
-    const bool may_lack = is(field.group, "/ranges") && is(field.name, "contacts");
+    // A file of all contacts does not say so, and one of an earlier version not which states it has, or by
+    // which method it was made, or how.
+    const bool may_lack =
+        is(field.group, "/ranges") &&
+        (is(field.name, "contacts") || is(field.name, "states") || is(field.name, "states_of"));
     const bool may_be_older =
         is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
@@ -247,6 +252,8 @@ void check_pointers(const Hdf5File& file, const ForceRanges& ranges) {
       fail(file, "/extremal/active", fmt::format("there is no half-plane {}", plane));
   }
   check("/extremal@largest_norm", "state", ranges.largest_norm, ranges.states.rows());
+  for (const std::int32_t contact : ranges.state_contacts)
+    check("/extremal/contacts", "contact", contact, ranges.value.rows());
   for (const std::int32_t row : ranges.vertex.reshaped())
     check("/ranges/vertex", "state", row, ranges.states.rows());
   for (const std::int32_t row : ranges.ray.reshaped()) check("/ranges/ray", "ray", row, ranges.rays.rows());

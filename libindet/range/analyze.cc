@@ -65,7 +65,6 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   search.paper = options.paper;
   search.lp = options.lp;
   search.threads = options.threads;
-  search.canonical_states = options.canonical_states;
   search.solver_states = options.solver_states;
   if (options.progress) {
     search.progress = [&options](std::int64_t settled, std::int64_t total) {
@@ -130,16 +129,19 @@ Formulation choose_formulation(int dim) {
 
 AnalyzeOptions options_for(Accuracy accuracy) {
   AnalyzeOptions options;
-  options.canonical_states = accuracy != Accuracy::kFast;
+  if (accuracy == Accuracy::kFast) options.states.kind = StateChoice::Kind::kSolver;
   return options;
 }
 
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
+  const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
+  if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
+  const StateChoice kept =
+      limited(options.states, static_cast<int>(contacts.size()), packing.contact_count());
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
   MethodChoice choice = options.method ? MethodChoice{*options.method, ""}
-                                       : choose_method(packing.contact_count(), options.canonical_states);
-  const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
+                                       : choose_method(packing.contact_count(), kept.kind != StateChoice::Kind::kNone);
   ForcePolytope polytope = find_polytope(packing, options, choice);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
@@ -155,7 +157,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     return ranges;
   }
   const SearchOptions search = search_options(polytope, options, choice.method);
-  Extrema extrema = find_extrema(polytope, contacts, packing.simulated_forces(), search);
+  Extrema extrema = find_extrema(packing, polytope, contacts, kept, search);
   extrema.reason = std::move(choice.reason);
   stopwatch.mark("ranges");
   seconds["states"] = extrema.state_seconds;

@@ -11,6 +11,7 @@
 #include "libindet/range/force_ranges.h"
 #include "libindet/range/method.h"
 #include "libindet/range/paper_options.h"
+#include "libindet/range/state_choice.h"
 
 namespace indet {
 
@@ -28,9 +29,9 @@ struct AnalyzeOptions {
   PaperOptions paper;  ///< of kPivotingPaper
   LpOptions lp;
   ContactChoice contacts;
-  bool canonical_states =
-      true;  ///< extremal states of smallest total normal force; false: where the solver lands
-  bool solver_states = false;  ///< also tell where the solver landed (ForceRanges::solver_states)
+  StateChoice states;          ///< which extremal states the result keeps
+  bool solver_states = false;  ///< where it keeps all canonical ones: also tell where the solver landed
+                               ///< (ForceRanges::solver_states)
   int threads = 1;             ///< the results do not depend on it
   ProgressCallback progress;
 };
@@ -39,7 +40,8 @@ struct AnalyzeOptions {
 AnalyzeOptions options_for(Accuracy accuracy);
 
 /// The ranges of all contact forces of a packing: from equilibrium problem to measures, each value with its
-/// residuals. Precondition: find_defect(packing) is empty. Throws Interrupted, LibraryError.
+/// residuals. Precondition: find_defect(packing) is empty. Throws InputError if the choice of states has a
+/// defect, Interrupted, LibraryError.
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options = {});
 
 /// The method for a packing with this number of contacts, and why: kBarrier where no extremal states are

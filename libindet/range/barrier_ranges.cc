@@ -58,11 +58,12 @@ class BarrierSearch {
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
     Extrema& extrema = result_.extrema;
     extrema.method = Method::kBarrier;
+    extrema.state_kind = StateChoice::Kind::kNone;
     extrema.claim.setConstant(count, 4, Outcome::kNotRequested);
     extrema.vertex.setConstant(count, 4, -1);
     extrema.unique.setZero(count, 4);
     extrema.ray.setConstant(count, 4, -1);
-    for (auto* table : {&extrema.dual_residual, &extrema.ray_residual}) table->setConstant(count, 4, kNaN);
+    for (auto* table : {&extrema.value, &extrema.primal_residual, &extrema.dual_residual, &extrema.ray_residual}) table->setConstant(count, 4, kNaN);
     extrema.states.resize(0, 2 * count);
     extrema.rays.resize(0, 2 * count);
     extrema.active.resize(0, std::max(0, polytope_.dim));

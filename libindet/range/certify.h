@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "libindet/packing/packing.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/outcome.h"
@@ -26,15 +25,14 @@ struct Certified {
   std::int64_t objectives = 0, certified = 0, unbounded = 0, enclosed = 0, imprecise = 0, failed = 0;
   double worst_primal_residual = std::numeric_limits<double>::quiet_NaN();
   double worst_dual_residual = std::numeric_limits<double>::quiet_NaN();
-  double residual = std::numeric_limits<double>::quiet_NaN();  ///< Largest ‖cF + w‖∞ over the stored states,
-                                                               ///< in force units.
+  double residual = std::numeric_limits<double>::quiet_NaN();  ///< Largest ‖cF + w‖∞ over the extremal
+                                                               ///< states, kept or not, in force units.
 };
 
-/// Reads each value from its state, recomputes the primal residuals from the packing, lets go of enclosures
-/// that rest on a decision about F which is in doubt, takes the middle of the interval where there is no
-/// state, and lets the residuals, or the width of the interval, decide between `optimal` and `imprecise`;
-/// then counts outcomes. Where F is empty all objectives count, and none has an outcome.
-Certified certify(const Packing& packing, const ProblemSummary& problem, const Extrema& extrema,
-                  const Enclosures& enclosures);
+/// Takes the values and the residuals of their states, or the middle of the interval where there is no state, lets go of
+/// enclosures that rest on a decision about F which is in doubt, and lets the residuals, or the width of the interval,
+/// decide between certified and `imprecise`; then counts outcomes. Where F is empty all objectives count, and none has an
+/// outcome.
+Certified certify(const ProblemSummary& problem, const Extrema& extrema, const Enclosures& enclosures);
 
 }  // namespace indet

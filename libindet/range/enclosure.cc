@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -10,7 +11,10 @@
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/dense/lu.h"
 #include "libindet/range/equation_bounds.h"
+#include "libindet/range/functional.h"
+#include "libindet/range/proof_bases.h"
 #include "libindet/range/sensitivity.h"
+#include "libindet/range/state_table.h"
 
 namespace indet {
 namespace {
@@ -34,14 +38,15 @@ class Encloser {
   }
 
   Enclosures run(std::span<const SumAtOptimum> sums) {
-    sort_bases(extrema_.proofs);
-    bound_strengths();
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
+    inner_.setConstant(count, 4, -kInfinity);
     for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
       table->setConstant(count, 4, kNaN);
+    read_proofs();
+    bound_strengths();
     for (Eigen::Index i = 0; i < count; ++i) {
       for (int column = 0; column < 4; ++column) {
-        if (extrema_.vertex(i, column) >= 0) enclose(i, column);
+        if (!std::isnan(extrema_.value(i, column))) enclose(i, column);
       }
     }
     const bool limited = polytope_.status != PolytopeStatus::kBounded || std::isfinite(total_);
@@ -51,52 +56,9 @@ class Encloser {
   }
 
  private:
-  /// A linear functional by its coefficients on the unknowns u and on the edges x, ascending. Where these are
-  /// sums in which digits cancel, `sizes` are those of their parts.
-  struct Functional {
-    std::vector<std::pair<int, double>> on_unknowns, on_edges;
-    std::vector<double> unknown_sizes, edge_sizes;  ///< empty: the sizes of the coefficients
-    double edge_size(std::size_t k) const {
-      return edge_sizes.empty() ? std::abs(on_edges[k].second) : edge_sizes[k];
-    }
-    double unknown_size(std::size_t k) const {
-      return unknown_sizes.empty() ? std::abs(on_unknowns[k].second) : unknown_sizes[k];
-    }
-  };
-
-  Functional functional(const Eigen::VectorXd& on_forces) const {
-    Functional f;
-    for (int k = 0; k < problem_.unknowns(); ++k) {
-      const Edge& edge = problem_.edge(k);
-      const double on_R = on_forces[2 * edge.contact.value()];
-      const double on_T = on_forces[2 * edge.contact.value() + 1];
-      if (edge.is_slack() || (on_R == 0 && on_T == 0)) continue;
-      f.on_edges.emplace_back(k, on_R * edge.R + on_T * edge.T);
-      f.edge_sizes.push_back(std::abs(on_R * edge.R) + std::abs(on_T * edge.T));
-      if (problem_.is_stick(edge)) {  // its unknowns are R, then T
-        f.on_unknowns.emplace_back(k, edge.sign > 0 ? on_R : on_T);
-        f.unknown_sizes.push_back(std::abs(f.on_unknowns.back().second));
-      } else {
-        f.on_unknowns.push_back(f.on_edges.back());
-        f.unknown_sizes.push_back(f.edge_sizes.back());
-      }
-    }
-    return f;
-  }
-
-  Functional functional(Eigen::Index contact, bool tangential, double sign) const {
-    Functional f;
-    const int first = first_[static_cast<std::size_t>(contact)];
-    if (first < 0) return f;
-    const int edges = problem_.is_stick(problem_.edge(first)) ? 2 : 1;
-    for (int k = first; k < first + edges; ++k) {
-      const Edge& edge = problem_.edge(k);
-      const double coefficient = sign * (tangential ? edge.T : edge.R);
-      f.on_edges.emplace_back(k, coefficient);
-      if (edges == 1) f.on_unknowns.emplace_back(k, coefficient);
-    }
-    if (edges == 2) f.on_unknowns.emplace_back(first + (tangential ? 1 : 0), sign);
-    return f;
+  Functional functional(Eigen::Index contact, int column) const {
+    const double sign = column == kMaxR || column == kMaxT ? 1 : -1;
+    return force_component(problem_, first_, contact, column >= kMinT, sign);
   }
 
   /// Visits each edge with its smallest slack once the point has been corrected.
@@ -132,7 +94,8 @@ class Encloser {
     centre_.u = problem_.unknowns_of(problem_.state(polytope_.interior));
     centre_.shift = equations_.distance_to_solution(centre_.u);
     margin_.resize(problem_.unknowns());
-    inside_ = extrema_.states.rows() > 0 && std::isfinite(centre_.shift);
+    const bool has_state = !extrema_.value.isNaN().all();
+    inside_ = has_state && std::isfinite(centre_.shift);
     for_each_slack(centre_.u, centre_.shift, [&](int k, double slack) {
       margin_[k] = slack;
       inside_ = inside_ && slack > 0;
@@ -141,26 +104,32 @@ class Encloser {
       states_.push_back(bound_of(problem_.units.internal(SceneForces(extrema_.states.row(row).transpose()))));
   }
 
-  void sort_bases(const std::vector<OptimalBasis>& optima) {
-    basis_of_.setConstant(static_cast<Eigen::Index>(problem_.contacts.size()), 4, -1);
-    std::map<std::pair<std::size_t, Basis>, int> numbers;
-    for (const OptimalBasis& optimum : optima) {
-      const auto [entry, is_new] =
-          numbers.emplace(std::make_pair(optimum.block, optimum.basis), static_cast<int>(factors_.size()));
-      if (is_new) {
-        const SlopeView& view = polytope_.blocks[optimum.block].view;
-        factors_.push_back({optimum.block, optimum.basis,
-                            Eigen::PartialPivLU<Eigen::MatrixXd>(view.slope(optimum.basis, Eigen::all))});
+  /// Reads the reduced costs of every objective at the basis that proves it; and there, where its state is
+  /// not kept, what the state tells.
+  void read_proofs() {
+    const std::vector<OptimalBasis>& proofs = extrema_.proofs;
+    proof_of_.setConstant(static_cast<Eigen::Index>(problem_.contacts.size()), 4, -1);
+    for (std::size_t k = 0; k < proofs.size(); ++k)
+      proof_of_(proofs[k].contact, proofs[k].column) = static_cast<int>(k);
+    costs_.resize(proofs.size());
+    for_each_basis(polytope_, proofs, [&](const ProofBasis& basis, std::span<const std::size_t> numbers) {
+      std::optional<SceneForces> forces;
+      StateBound bound;
+      for (const std::size_t k : numbers) {
+        const auto [i, column] = std::pair(proofs[k].contact, proofs[k].column);
+        const Functional f = functional(i, column);
+        costs_[k] = reduced_costs(f, basis.block, basis.vertex.active);
+        if (extrema_.vertex(i, column) >= 0) continue;
+        if (!forces) {
+          forces = problem_.units.scene(state_at(polytope_, basis.block, basis.vertex));
+          bound = bound_of(problem_.units.internal(*forces));
+        }
+        inner_(i, column) = from_below(f, bound);
+        enclosures_.sensitivity(i, column) =
+            sensitivity_of(multipliers(f, proof_of_(i, column)), forces->value());
       }
-      basis_of_(optimum.contact, optimum.column) = entry->second;
-    }
+    });
   }
-
-  struct Factor {
-    std::size_t block;
-    Basis basis;
-    Eigen::PartialPivLU<Eigen::MatrixXd> active;
-  };
 
   /// Adds Pᵀ times a multiple of the functional u_i.
   void add_unknown(int unknown, double weight, Eigen::VectorXd& y) const {
@@ -179,21 +148,31 @@ class Encloser {
   Eigen::VectorXd multipliers(const Functional& f, int number) const {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
     for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
-    if (number >= 0) add_reduced_costs(f, factors_[static_cast<std::size_t>(number)], y);
+    if (number >= 0) {
+      const OptimalBasis& proof = extrema_.proofs[static_cast<std::size_t>(number)];
+      add_reduced_costs(proof.block, proof.basis, costs_[static_cast<std::size_t>(number)], y);
+    }
     return y;
   }
 
-  void add_reduced_costs(const Functional& f, const Factor& factor, Eigen::VectorXd& y) const {
-    const PolytopeBlock& block = polytope_.blocks[factor.block];
+  /// λ of the active inequalities, whose factors are given.
+  Eigen::VectorXd reduced_costs(const Functional& f, std::size_t number,
+                                const Eigen::PartialPivLU<Eigen::MatrixXd>& active) const {
+    const PolytopeBlock& block = polytope_.blocks[number];
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
     for (const auto& [edge, coefficient] : f.on_edges) {
       const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
       if (local != block.edges.end() && *local == edge)
         gradient += coefficient * block.view.slope.row(local - block.edges.begin()).transpose();
     }
-    const Eigen::VectorXd costs = factor.active.transpose().solve(gradient);
+    return active.transpose().solve(gradient);
+  }
+
+  void add_reduced_costs(std::size_t block, const Basis& basis, const Eigen::VectorXd& costs,
+                         Eigen::VectorXd& y) const {
     for (Eigen::Index k = 0; k < costs.size(); ++k) {
-      const int edge = block.edges[static_cast<std::size_t>(factor.basis[static_cast<std::size_t>(k)])];
+      const int edge =
+          polytope_.blocks[block].edges[static_cast<std::size_t>(basis[static_cast<std::size_t>(k)])];
       add_edge(edge, std::max(0.0, -costs[k]), y);
     }
   }
@@ -250,9 +229,9 @@ class Encloser {
     for (int k = 0; k < problem_.unknowns(); ++k) {
       const Edge& edge = problem_.edge(k);
       const Eigen::Index i = edge.contact.value();
-      if (extrema_.vertex(i, kMaxR) < 0 || k != first_[static_cast<std::size_t>(i)]) continue;
-      const Functional f = functional(i, false, 1);
-      const Eigen::VectorXd y_of_maximum = multipliers(f, basis_of_(i, kMaxR));
+      if (std::isnan(extrema_.value(i, kMaxR)) || k != first_[static_cast<std::size_t>(i)]) continue;
+      const Functional f = functional(i, kMaxR);
+      const Eigen::VectorXd y_of_maximum = multipliers(f, proof_of_(i, kMaxR));
       const double R = equations_.load_bound(y_of_maximum) + worst_excess(f, y_of_maximum) * total_;
       for (const auto& [own, coefficient] : f.on_edges)
         strength_[own] = std::min(total_, kWiden * kWiden * std::max(0.0, R) / coefficient);
@@ -272,17 +251,11 @@ class Encloser {
     return std::isnan(bound) ? kInfinity : bound;
   }
 
-  static double value_at(const Functional& f, const Eigen::VectorXd& u) {
-    double value = 0;
-    for (const auto& [unknown, coefficient] : f.on_unknowns) value += coefficient * u[unknown];
-    return value;
-  }
-
   /// Lower bound of max f: f at an admissible state near the stored one.
   double from_below(const Functional& f, const StateBound& state) const {
     if (!inside_ || !std::isfinite(state.shift)) return -kInfinity;
-    const double value = value_at(f, state.u);
-    const double middle = value_at(f, centre_.u);
+    const double value = f.at(state.u);
+    const double middle = f.at(centre_.u);
     double reach = 0;
     double size = 0;
     for (std::size_t k = 0; k < f.on_unknowns.size(); ++k) {
@@ -295,32 +268,45 @@ class Encloser {
     return value - kWiden * (slack + state.share * std::abs(value - middle)) - kTiny;
   }
 
-  double sensitivity_of(const Eigen::VectorXd& y, Eigen::Index state) const {
+  double sensitivity_of(const Eigen::VectorXd& y, const Eigen::VectorXd& forces) const {
     Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem_.equations());
     for (std::size_t k = 0; k < equations_.rows().size(); ++k)
       motion[equations_.rows()[k]] = y[static_cast<Eigen::Index>(k)];
-    return sensitivity_to_normals(problem_, motion, SceneForces(extrema_.states.row(state).transpose()));
+    return sensitivity_to_normals(problem_, motion, SceneForces(forces));
+  }
+
+  /// Of a determined value whose state is not kept: the one that all of them share.
+  void read_lightest(Eigen::Index i, int column, const Functional& f, const Eigen::VectorXd& y) {
+    if (!lightest_) {
+      lightest_ = problem_.units.scene(problem_.state(polytope_.lightest));
+      lightest_bound_ = bound_of(problem_.units.internal(*lightest_));
+    }
+    inner_(i, column) = from_below(f, lightest_bound_);
+    enclosures_.sensitivity(i, column) = sensitivity_of(y, lightest_->value());
   }
 
   void enclose(Eigen::Index i, int column) {
     const double sign = column == kMaxR || column == kMaxT ? 1 : -1;
     const Eigen::Index row = extrema_.vertex(i, column);
-    const StateBound& state = states_[static_cast<std::size_t>(row)];
-    const double stored = extrema_.states(row, 2 * i + (column >= kMinT ? 1 : 0));
+    const double stored = extrema_.value(i, column);
     double inner = 0;
     double outer = 0;
-    const Functional f = functional(i, column >= kMinT, sign);
+    const Functional f = functional(i, column);
     if (f.on_edges.empty()) {  // closed throughout F: exactly 0
       enclosures_.sensitivity(i, column) = 0;
     } else {
-      const Eigen::VectorXd y = multipliers(f, basis_of_(i, column));
+      const bool is_determined = proof_of_(i, column) < 0;
+      const Eigen::VectorXd y = multipliers(f, proof_of_(i, column));
       outer = from_above(f, y);
-      inner = from_below(f, state);
-      if (basis_of_(i, column) < 0) {
-        // Determined: the same bound from the other side holds for every state.
-        inner = std::max(inner, -from_above(opposite_of(f), -y));
+      if (row >= 0) {
+        inner_(i, column) = from_below(f, states_[static_cast<std::size_t>(row)]);
+        enclosures_.sensitivity(i, column) = sensitivity_of(y, extrema_.states.row(row).transpose());
+      } else if (is_determined) {
+        read_lightest(i, column, f, y);
       }
-      enclosures_.sensitivity(i, column) = sensitivity_of(y, row);
+      inner = inner_(i, column);
+      // The same bound from the other side holds for every state.
+      if (is_determined) inner = std::max(inner, -from_above(f.opposite(), -y));
     }
     const double unit = problem_.units.internal_in_scene();
     const double low = sign > 0 ? inner : -outer;
@@ -329,25 +315,18 @@ class Encloser {
     enclosures_.upper(i, column) = std::max(stored, widened(high, 1, unit));
   }
 
-  static Functional opposite_of(Functional f) {
-    for (auto* part : {&f.on_unknowns, &f.on_edges}) {
-      for (auto& entry : *part) entry.second = -entry.second;
-    }
-    return f;
-  }
-
   SumBounds enclose_sum(const SumAtOptimum& sum) const {
-    const Functional f = functional(sum.coefficients);
+    const Functional f = sum_of_forces(problem_, sum.coefficients);
     Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
     for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
     for (const auto& [block, basis] : sum.bases) {
-      const SlopeView& view = polytope_.blocks[block].view;
-      add_reduced_costs(
-          f, {block, basis, Eigen::PartialPivLU<Eigen::MatrixXd>(view.slope(basis, Eigen::all))}, y);
+      const Eigen::PartialPivLU<Eigen::MatrixXd> active(
+          polytope_.blocks[block].view.slope(basis, Eigen::all));
+      add_reduced_costs(block, basis, reduced_costs(f, block, active), y);
     }
     const double outer = from_above(f, y);
     double inner = from_below(f, bound_of(sum.state));
-    if (sum.bases.empty()) inner = std::max(inner, -from_above(opposite_of(f), -y));
+    if (sum.bases.empty()) inner = std::max(inner, -from_above(f.opposite(), -y));
     const double unit = problem_.units.internal_in_scene();
     return {widened(inner, -1, unit), widened(outer, 1, unit)};
   }
@@ -366,10 +345,13 @@ class Encloser {
   EquationBounds equations_;
   std::vector<StateBound> states_;
   StateBound centre_;
-  Eigen::VectorXd margin_;  ///< slack of the centre at each edge
-  bool inside_ = false;     ///< the centre is proven to be strictly inside
-  Eigen::Array<int, Eigen::Dynamic, 4, Eigen::RowMajor> basis_of_;
-  std::vector<Factor> factors_;
+  Eigen::VectorXd margin_;              ///< slack of the centre at each edge
+  bool inside_ = false;                 ///< the centre is proven to be strictly inside
+  Table4<int> proof_of_;                ///< number of its proof; −1: none
+  std::vector<Eigen::VectorXd> costs_;  ///< of each proof, −λ of its basis
+  Table4<double> inner_;                ///< bound from below of each maximum, from above of each minimum
+  std::optional<SceneForces> lightest_;
+  StateBound lightest_bound_;
   double total_ = kInfinity;  ///< bound of ΣR over F
   Eigen::VectorXd strength_;  ///< X
 };

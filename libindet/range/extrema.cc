@@ -1,11 +1,15 @@
 #include "libindet/range/extrema.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/lp/purification.h"
@@ -57,19 +61,26 @@ BlockComponents components_of(const ForcePolytope& polytope, const PolytopeBlock
 /// Finds the extrema of one block after the other.
 class ExtremaFinder {
  public:
-  ExtremaFinder(const ForcePolytope& polytope, const std::vector<int>& contacts, const SceneForces& simulated,
-                const SearchOptions& options)
-      : simulated_(simulated),
+  ExtremaFinder(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
+                const StateChoice& kept, const SearchOptions& options)
+      : simulated_(packing.simulated_forces()),
+        check_(packing),
         polytope_(polytope),
         contacts_(contacts),
+        kept_(kept),
         options_(options),
         states_(polytope),
         solver_states_(polytope) {
+    options_.canonical_states = kept.keeps_all() && kept.kind == StateChoice::Kind::kCanonical;
+    options_.solver_states = options.solver_states && options_.canonical_states;
     const auto count = static_cast<Eigen::Index>(polytope.problem.contacts.size());
     extrema_.claim.setConstant(count, 4, Outcome::kNotRequested);
     extrema_.vertex.setConstant(count, 4, -1);
     extrema_.unique.setZero(count, 4);
-    if (options.solver_states) {
+    extrema_.clear(count);
+    extrema_.state_kind = kept.kind;
+    extrema_.states_of = kept.contacts;
+    if (options_.solver_states) {
       extrema_.solver_states.emplace();
       extrema_.solver_states->states.resize(0, 2 * count);
       extrema_.solver_states->vertex.setConstant(count, 4, -1);
@@ -78,6 +89,7 @@ class ExtremaFinder {
     for (auto* table : {&extrema_.dual_residual, &extrema_.ray_residual})
       table->setConstant(count, 4, std::numeric_limits<double>::quiet_NaN());
     extrema_.states.resize(0, 2 * count);
+    extrema_.active.resize(0, std::max(0, polytope.dim));
     extrema_.rays.resize(0, 2 * count);
     extrema_.method = options.method;
     extrema_.paper_options = options.paper;
@@ -96,10 +108,12 @@ class ExtremaFinder {
     }
     for (std::size_t number = 0; number < wanted.size(); ++number) search_block(number, wanted[number]);
     store_determined();
+    if (kept_.kind != StateChoice::Kind::kNone && !kept_.keeps_all()) keep_some(wanted);
     if (options_.progress && !options_.progress(settled_, total_)) throw Interrupted();
     extrema_.states = states_.states();
     extrema_.active = states_.active();
     extrema_.rays = states_.rays();
+    note_states(extrema_.states, extrema_.vertex, check_, extrema_);
     if (extrema_.solver_states) extrema_.solver_states->states = solver_states_.states();
     return std::move(extrema_);
   }
@@ -123,6 +137,7 @@ class ExtremaFinder {
     SearchOptions options = options_;
     options.formulation = Formulation::kDual;
     options.canonical_states = options.solver_states = false;
+    options.sink = {};
     if (options.method == Method::kPivotingPaper) options.method = Method::kLp;  // the paper met no such case
     if (options_.progress) {  // these searches may be stopped too, but settle no range yet
       options.progress = [this](std::int64_t, std::int64_t) { return options_.progress(settled_, total_); };
@@ -154,36 +169,61 @@ class ExtremaFinder {
     }
   }
 
-  void search_block(std::size_t number, BlockComponents& wanted) {
-    const PolytopeBlock& block = polytope_.blocks[number];
+  Eigen::VectorXd weight_of(const PolytopeBlock& block) const {
     Eigen::VectorXd weight(static_cast<Eigen::Index>(block.edges.size()));
     for (std::size_t k = 0; k < block.edges.size(); ++k) {
       weight[static_cast<Eigen::Index>(k)] =
           polytope_.problem.edges[static_cast<std::size_t>(block.edges[k])].R;
     }
+    return weight;
+  }
+
+  /// Notes the values of objectives at a vertex of a block, which is then let go.
+  void note_vertex(std::size_t number, const BlockComponents& block, const Vertex& vertex,
+                   std::span<const std::int64_t> objectives) {
+    const SceneForces forces = polytope_.problem.units.scene(state_at(polytope_, number, vertex));
+    const StateResidual residual = check_(forces);
+    for (const std::int64_t objective : objectives) {
+      const auto [contact, is_tangential] = block.names[static_cast<std::size_t>(objective / 2)];
+      extrema_.note(contact.value(), (is_tangential ? kMinT : kMinR) + static_cast<int>(objective % 2),
+                    forces, residual);
+    }
+  }
+
+  void search_block(std::size_t number, BlockComponents& wanted) {
+    const PolytopeBlock& block = polytope_.blocks[number];
+    const Eigen::VectorXd weight = weight_of(block);
     if (block.unbounded) exclude_unbounded(number, weight, wanted);
     const Basis start = options_.method == Method::kPivotingPaper
                             ? first_extremal_point(simulated_, polytope_, block, options_.lp, extrema_.paper)
                             : block.lightest;
-    const SearchResult found = search_extrema(block.view, wanted.components, weight, start, options_within());
+    SearchOptions within = options_within();
+    if (!kept_.keeps_all()) {
+      within.sink = [&](const Vertex& vertex, std::span<const std::int64_t> objectives) {
+        note_vertex(number, wanted, vertex, objectives);
+      };
+    }
+    SearchResult found = search_extrema(block.view, wanted.components, weight, start, within);
     extrema_.paper += found.paper;
     extrema_.state_seconds += found.state_seconds;
     extrema_.solves += found.solves;
     extrema_.pivots += found.pivots;
     for (std::size_t c = 0; c < wanted.components.size(); ++c) {
       const auto [contact, is_tangential] = wanted.names[c];
-      const auto store = [&, row = contact.value()](bool asked, const Extremum& extremum, int column) {
+      const auto store = [&, row = contact.value()](bool asked, Extremum& extremum, int column) {
         if (!asked) return;
         const bool optimal = extremum.status == Extremum::Status::kOptimal;
         extrema_.claim(row, column) = optimal ? Outcome::kOptimal : Outcome::kFailed;
         if (!optimal) return;
-        const Vertex& vertex = found.vertices[static_cast<std::size_t>(extremum.vertex)];
-        extrema_.vertex(row, column) = states_.add(number, vertex);
+        if (kept_.keeps_all()) {
+          const Vertex& vertex = found.vertices[static_cast<std::size_t>(extremum.vertex)];
+          extrema_.vertex(row, column) = states_.add(number, vertex);
+        }
         if (extrema_.solver_states) {
           const Vertex& landed = found.vertices[static_cast<std::size_t>(extremum.solver_vertex)];
           extrema_.solver_states->vertex(row, column) = solver_states_.add(number, landed);
         }
-        extrema_.proofs.push_back({row, column, number, extremum.proof});
+        extrema_.proofs.push_back({row, column, number, std::move(extremum.proof)});
         extrema_.dual_residual(row, column) = extremum.dual_residual;
         extrema_.unique(row, column) = extremum.unique && polytope_.blocks.size() == 1 ? 1 : 0;
       };
@@ -195,11 +235,21 @@ class ExtremaFinder {
 
   /// Objectives that no linear program was needed for: their value is the same everywhere in F.
   void store_determined() {
+    std::optional<SceneForces> lightest;
+    StateResidual residual;
     for (const int i : contacts_) {
       for (int column = 0; column < 4; ++column) {
         if (extrema_.claim(i, column) != Outcome::kNotRequested) continue;
         extrema_.claim(i, column) = Outcome::kOptimal;
-        extrema_.vertex(i, column) = states_.lightest();
+        if (kept_.keeps_all()) {
+          extrema_.vertex(i, column) = states_.lightest();
+        } else {
+          if (!lightest) {
+            lightest = polytope_.problem.units.scene(polytope_.problem.state(polytope_.lightest));
+            residual = check_(*lightest);
+          }
+          extrema_.note(i, column, *lightest, residual);
+        }
         if (extrema_.solver_states) extrema_.solver_states->vertex(i, column) = solver_states_.lightest();
         extrema_.dual_residual(i, column) = 0;
         extrema_.unique(i, column) = polytope_.dim == 0 ? 1 : 0;
@@ -208,10 +258,96 @@ class ExtremaFinder {
     }
   }
 
-  const SceneForces& simulated_;
+  /// Finds the states again of the contacts of which they are kept.
+  void keep_some(const std::vector<BlockComponents>& searched) {
+    const auto begin = std::chrono::steady_clock::now();
+    Table4<double> value = extrema_.value;
+    for (const int column : {kMinR, kMaxR, kMinT, kMaxT}) {
+      const double infinite = column == kMaxR || column == kMaxT ? kInfinity : -kInfinity;
+      value.col(column) = (extrema_.ray.col(column) >= 0).select(infinite, value.col(column));
+    }
+    const std::vector<int> chosen = contacts_with_states(kept_, value);
+    extrema_.state_contacts = Eigen::Map<const Eigen::ArrayXi>(chosen.data(), std::ssize(chosen));
+    std::vector<std::vector<OptimalBasis*>> proofs(searched.size());
+    for (OptimalBasis& proof : extrema_.proofs) {
+      if (std::binary_search(chosen.begin(), chosen.end(), static_cast<int>(proof.contact)))
+        proofs[proof.block].push_back(&proof);
+    }
+    for (std::size_t number = 0; number < searched.size(); ++number) {
+      const SlopeView& view = polytope_.blocks[number].view;
+      for (const OptimalBasis* proof : proofs[number])
+        extrema_.vertex(proof->contact, proof->column) = kNotYet;
+      if (kept_.kind == StateChoice::Kind::kCanonical)
+        make_canonical(number, searched[number], proofs[number]);
+      for (const OptimalBasis* proof : proofs[number]) {
+        std::int32_t& row = extrema_.vertex(proof->contact, proof->column);
+        if (row == kNotYet) row = states_.add(number, compute_vertex(view, proof->basis));
+      }
+    }
+    for (const int i : chosen) {
+      for (int column = 0; column < 4; ++column) {
+        const bool is_determined =
+            extrema_.claim(i, column) == Outcome::kOptimal && extrema_.vertex(i, column) < 0;
+        if (is_determined) extrema_.vertex(i, column) = states_.lightest();
+      }
+    }
+    extrema_.state_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  /// Stores the canonical states of objectives of one block whose optimal face is known.
+  void make_canonical(std::size_t number, const BlockComponents& searched,
+                      const std::vector<OptimalBasis*>& proofs) {
+    const PolytopeBlock& block = polytope_.blocks[number];
+    std::map<std::pair<Eigen::Index, int>, OptimalBasis*> known;
+    std::vector<Basis> bases;
+    for (OptimalBasis* proof : proofs) {
+      if (extrema_.dual_residual(proof->contact, proof->column) > tolerance::kReducedCost) continue;
+      known[{proof->contact, proof->column}] = proof;
+      bases.push_back(proof->basis);
+    }
+    BlockComponents wanted;
+    for (std::size_t c = 0; c < searched.components.size(); ++c) {
+      const auto [contact, is_tangential] = searched.names[c];
+      Component component = searched.components[c];
+      component.minimise = known.contains({contact.value(), is_tangential ? kMinT : kMinR});
+      component.maximise = known.contains({contact.value(), is_tangential ? kMaxT : kMaxR});
+      if (!component.minimise && !component.maximise) continue;
+      wanted.components.push_back(std::move(component));
+      wanted.names.push_back(searched.names[c]);
+    }
+    SearchOptions options = options_;
+    options.canonical_states = true;
+    if (options.method == Method::kPivotingPaper) options.method = Method::kLp;
+    if (options_.progress)
+      options.progress = [this](std::int64_t, std::int64_t) { return options_.progress(settled_, total_); };
+    const SearchResult found =
+        search_extrema(block.view, wanted.components, weight_of(block), block.lightest, options, bases);
+    extrema_.solves += found.solves;
+    extrema_.pivots += found.pivots;
+    for (std::size_t c = 0; c < wanted.components.size(); ++c) {
+      const auto [contact, is_tangential] = wanted.names[c];
+      const auto store = [&, row = contact.value()](bool asked, const Extremum& extremum, int column) {
+        if (!asked || extremum.status != Extremum::Status::kOptimal) return;
+        known.at({row, column})->basis = extremum.proof;
+        extrema_.vertex(row, column) =
+            states_.add(number, found.vertices[static_cast<std::size_t>(extremum.vertex)]);
+        extrema_.dual_residual(row, column) = extremum.dual_residual;
+        extrema_.unique(row, column) = extremum.unique && polytope_.blocks.size() == 1 ? 1 : 0;
+      };
+      store(wanted.components[c].minimise, found.minimum[c], is_tangential ? kMinT : kMinR);
+      store(wanted.components[c].maximise, found.maximum[c], is_tangential ? kMaxT : kMaxR);
+    }
+  }
+
+  /// Of an objective whose state is about to be stored.
+  static constexpr std::int32_t kNotYet = -2;
+
+  SceneForces simulated_;
+  StateChecker check_;
   const ForcePolytope& polytope_;
   const std::vector<int>& contacts_;
-  const SearchOptions& options_;
+  const StateChoice& kept_;
+  SearchOptions options_;
   StateTable states_;
   StateTable solver_states_;
   std::int64_t settled_ = 0;  ///< objectives that are determined, unbounded, or of a block that is done
@@ -221,9 +357,9 @@ class ExtremaFinder {
 
 }  // namespace
 
-Extrema find_extrema(const ForcePolytope& polytope, const std::vector<int>& contacts,
-                     const SceneForces& simulated, const SearchOptions& options) {
-  return ExtremaFinder(polytope, contacts, simulated, options).run();
+Extrema find_extrema(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
+                     const StateChoice& kept, const SearchOptions& options) {
+  return ExtremaFinder(packing, polytope, contacts, kept, options).run();
 }
 
 }  // namespace indet

@@ -39,9 +39,10 @@ TaskResult solve_value(Maximiser& solver, const OptimalityChecker& checker, cons
   return result;
 }
 
-void find_values(const OptimalityChecker& checker, const Basis& start, ObjectiveTable& table,
-                 SearchRounds& rounds) {
+void find_values(const OptimalityChecker& checker, const Basis& start, std::span<const Basis> known_bases,
+                 ObjectiveTable& table, SearchRounds& rounds) {
   table.merge({check(checker, table, start)});
+  for (const Basis& basis : known_bases) table.merge({check(checker, table, basis)});
   rounds.run(
       [](const ObjectiveProgress& known) {
         return known.wanted && !known.optimal && !known.unbounded && !known.failed;
@@ -83,7 +84,8 @@ class VertexCollector {
   std::vector<int> number_;
 };
 
-SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& table, bool solver_states) {
+SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& table,
+                       const SearchOptions& options) {
   SearchResult result;
   result.solves = table.work().solves;
   result.continued = table.work().continued;
@@ -95,9 +97,13 @@ SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& t
     Extremum extremum;
     if (known.wanted && known.optimal) {
       extremum.status = Extremum::Status::kOptimal;
-      extremum.vertex = collector.add(known.vertex);
-      if (solver_states) extremum.solver_vertex = collector.add(known.settled_at);
-      extremum.value = checker.value_of(objective / 2, table.vertex(known.vertex).x);
+      if (options.sink) {
+        extremum.value = OptimalityChecker::sign_of(objective) * known.best;
+      } else {
+        extremum.vertex = collector.add(known.vertex);
+        if (options.solver_states) extremum.solver_vertex = collector.add(known.settled_at);
+        extremum.value = checker.value_of(objective / 2, table.vertex(known.vertex).x);
+      }
       extremum.dual_residual = known.dual_residual;
       extremum.proof = known.proof;
       extremum.unique = known.unique;
@@ -112,18 +118,19 @@ SearchResult result_of(const OptimalityChecker& checker, const ObjectiveTable& t
 }  // namespace
 
 SearchResult search_extrema(const SlopeView& view, const std::vector<Component>& components,
-                            const Eigen::VectorXd& weight, const Basis& start, const SearchOptions& options) {
+                            const Eigen::VectorXd& weight, const Basis& start, const SearchOptions& options,
+                            std::span<const Basis> known) {
   const OptimalityChecker checker(view, components, weight, options.canonical_states);
-  ObjectiveTable table(components, options.canonical_states);
+  ObjectiveTable table(components, options.canonical_states, options.sink);
   SearchRounds rounds(view, options, table);
   if (options.method == Method::kPivotingPaper) {
     walk_to_values(view, checker, start, options.paper, table, rounds);
   } else {
-    find_values(checker, start, table, rounds);
+    find_values(checker, start, known, table, rounds);
   }
   const auto middle = std::chrono::steady_clock::now();
   if (options.canonical_states) find_states(view, checker, table, rounds);
-  SearchResult found = result_of(checker, table, options.solver_states);
+  SearchResult found = result_of(checker, table, options);
   found.state_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return found;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libindet/lp/feasible_set.h"
@@ -17,7 +18,7 @@ struct Extremum {
   enum class Status : std::uint8_t { kOpen, kOptimal, kUnbounded, kFailed };
   Status status = Status::kOpen;
   double value = 0;
-  int vertex = -1;  ///< index into SearchResult::vertices
+  int vertex = -1;  ///< index into SearchResult::vertices; −1 also where a sink has taken them
   /// The vertex that settled the value, before canonical states are looked for: of the vertices in the order
   /// of the search the first that is optimal, because its reduced costs prove it or because the solver
   /// stopped there. It is `vertex` of a search without canonical states. −1 where not asked for
@@ -31,7 +32,8 @@ struct Extremum {
 
 struct SearchResult {
   std::vector<Extremum> minimum, maximum;  ///< one a component; kOpen where not asked for
-  std::vector<Vertex> vertices;            ///< those that some extremum points to, without their factors
+  std::vector<Vertex> vertices;            ///< those that some extremum points to, without their factors;
+                                           ///< none where a sink has taken them
   std::int64_t solves = 0;
   std::int64_t continued = 0;  ///< solves that began with the factors of the one before (kLp)
   std::int64_t pivots = 0;
@@ -54,9 +56,12 @@ struct SearchResult {
 /// Objectives are worked on in rounds (search_rounds.h): the result does not depend on the number of threads.
 /// Extremal states: canonical_states.h.
 ///
+/// `known`: further vertices, which are tried on all objectives before any is searched for.
+///
 /// Preconditions: the set is full-dimensional; `start` is a vertex; weight > 0. Functionals that are
 /// unbounded over the set end as kUnbounded.
 SearchResult search_extrema(const SlopeView& view, const std::vector<Component>& components,
-                            const Eigen::VectorXd& weight, const Basis& start, const SearchOptions& options);
+                            const Eigen::VectorXd& weight, const Basis& start, const SearchOptions& options,
+                            std::span<const Basis> known = {});
 
 }  // namespace indet

@@ -46,6 +46,19 @@ StateDistances state_distances(const Rows<double>& states, const Table4<std::int
   return distances;
 }
 
+void measure_states(const ExtremalStates& extremal, double force_unit, Measures& measures) {
+  measures.norm = extremal.states.rowwise().norm();
+  measures.largest_norm = -1;
+  if (measures.norm.size() > 0) {
+    Eigen::Index largest = 0;
+    measures.norm.maxCoeff(&largest);
+    measures.largest_norm = static_cast<int>(largest);
+  }
+  StateDistances distances = state_distances(extremal.states, extremal.vertex, force_unit);
+  measures.d_R = std::move(distances.d_R);
+  measures.d_T = std::move(distances.d_T);
+}
+
 Measures measure(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,
                  const ExtremalStates& extremal, const Certified& certified) {
   const Eigen::Index count = packing.contact_count();
@@ -54,15 +67,7 @@ Measures measure(const Packing& packing, const ProblemSummary& problem, const Co
   Measures measures;
   for (auto* vector : {&measures.delta_R, &measures.delta_T, &measures.R_star, &measures.T_star})
     vector->setConstant(count, kNaN);
-  measures.norm = extremal.states.rowwise().norm();
-  if (measures.norm.size() > 0) {
-    Eigen::Index largest = 0;
-    measures.norm.maxCoeff(&largest);
-    measures.largest_norm = static_cast<int>(largest);
-  }
-  StateDistances distances = state_distances(extremal.states, extremal.vertex, unit);
-  measures.d_R = std::move(distances.d_R);
-  measures.d_T = std::move(distances.d_T);
+  measure_states(extremal, unit, measures);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto value = certified.value.row(i);
     const Contact& contact = packing[ContactId(i)];

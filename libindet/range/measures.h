@@ -16,7 +16,7 @@ namespace indet {
 struct Measures {
   // One entry a contact.
   Eigen::VectorXd delta_R, delta_T;  ///< [23], +inf where unbounded.
-  Eigen::VectorXd d_R, d_T;          ///< [24], NaN where an extremal state is missing.
+  Eigen::VectorXd d_R, d_T;          ///< [24], NaN where an extremal state is not kept.
   Eigen::VectorXd R_star,
       T_star;             ///< [39], NaN where the simulated force is unknown or the range is a point.
   Eigen::VectorXd norm;   ///< [K], ‖F‖ of each state, in the scene's unit of force.
@@ -35,6 +35,9 @@ struct StateDistances {
 /// `vertex`: rows of `states`, which are in the scene's units.
 StateDistances state_distances(const Rows<double>& states, const Table4<std::int32_t>& vertex,
                                double force_unit);
+
+/// Norms and distances of the states that are there: norm, largest_norm, d_R, d_T.
+void measure_states(const ExtremalStates& extremal, double force_unit, Measures& measures);
 
 /// An estimate from a sample is NaN if one of its ranges was not found, or there is none.
 Measures measure(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,

@@ -15,8 +15,9 @@ bool ties(double a, double b) {
 
 }  // namespace
 
-ObjectiveTable::ObjectiveTable(const std::vector<Component>& components, bool canonical_states)
-    : canonical_states_(canonical_states), objectives_(2 * components.size()) {
+ObjectiveTable::ObjectiveTable(const std::vector<Component>& components, bool canonical_states,
+                               VertexSink sink)
+    : canonical_states_(canonical_states), sink_(std::move(sink)), objectives_(2 * components.size()) {
   for (std::size_t c = 0; c < components.size(); ++c) {
     objectives_[2 * c].wanted = components[c].minimise;
     objectives_[2 * c + 1].wanted = components[c].maximise;
@@ -62,6 +63,10 @@ std::vector<int> ObjectiveTable::merge(std::vector<TaskResult> results) {
     if (is_kept) {
       vertices_.push_back(std::move(result.found->vertex));
       vertices_.back().active = {};
+      if (sink_) {
+        hand_over(vertices_.back(), number, result.verdicts);
+        vertices_.back().x = vertices_.back().z = {};
+      }
       numbers[i] = number;
     }
   }
@@ -85,7 +90,7 @@ bool ObjectiveTable::take(ObjectiveVerdict& verdict, const CheckedVertex& checke
   if (!known.optimal) known.settled_at = number;
   // What a solver merely claims to be optimal does not tell the optimal face.
   if (!known.optimal || known.dual_residual > tolerance::kReducedCost) {
-    known.held = std::move(verdict.held);
+    if (canonical_states_) known.held = std::move(verdict.held);
     known.proof = checked.vertex.basis;
   }
   known.optimal = true;
@@ -93,6 +98,15 @@ bool ObjectiveTable::take(ObjectiveVerdict& verdict, const CheckedVertex& checke
   known.canonical = verdict.canonical || !canonical_states_;
   known.unique = verdict.unique;
   return true;
+}
+
+void ObjectiveTable::hand_over(const Vertex& vertex, int number,
+                               const std::vector<ObjectiveVerdict>& verdicts) const {
+  std::vector<std::int64_t> settled;
+  for (const ObjectiveVerdict& verdict : verdicts) {
+    if ((*this)[verdict.objective].settled_at == number) settled.push_back(verdict.objective);
+  }
+  if (!settled.empty()) sink_(vertex, settled);
 }
 
 bool ObjectiveTable::is_settled(const ObjectiveProgress& known) const {

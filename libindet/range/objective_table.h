@@ -8,6 +8,7 @@
 #include "libindet/lp/feasible_set.h"
 #include "libindet/lp/vertex.h"
 #include "libindet/range/component.h"
+#include "libindet/range/search_options.h"
 #include "libindet/range/search_task.h"
 
 namespace indet {
@@ -35,7 +36,8 @@ struct ObjectiveProgress {
 /// between rounds.
 class ObjectiveTable {
  public:
-  ObjectiveTable(const std::vector<Component>& components, bool canonical_states);
+  /// `sink`: SearchOptions::sink.
+  ObjectiveTable(const std::vector<Component>& components, bool canonical_states, VertexSink sink = {});
 
   std::int64_t count() const { return static_cast<std::int64_t>(objectives_.size()); }
   const ObjectiveProgress& operator[](std::int64_t objective) const {
@@ -48,7 +50,7 @@ class ObjectiveTable {
 
   /// The best known vertex of an objective.
   const Basis& best_basis(std::int64_t objective) const { return vertex((*this)[objective].vertex).basis; }
-  /// A vertex by its number, without its factors.
+  /// A vertex by its number, without its factors; where there is a sink, only its basis.
   const Vertex& vertex(int number) const { return vertices_[static_cast<std::size_t>(number)]; }
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
 
@@ -68,8 +70,10 @@ class ObjectiveTable {
  private:
   bool is_candidate(const ObjectiveProgress& known, double better, double weight) const;
   bool take(ObjectiveVerdict& verdict, const CheckedVertex& checked, int number);
+  void hand_over(const Vertex& vertex, int number, const std::vector<ObjectiveVerdict>& verdicts) const;
 
   bool canonical_states_;
+  VertexSink sink_;
   std::vector<ObjectiveProgress> objectives_;
   std::vector<Vertex> vertices_;
   SolverWork work_;

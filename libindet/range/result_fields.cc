@@ -28,6 +28,8 @@ const char* to_string(Extent extent) {
       return "d";
     case Extent::kBounds:
       return "B";
+    case Extent::kStateContacts:
+      return "C";
     case Extent::kReactions:
       return "P";
     case Extent::kEnds:

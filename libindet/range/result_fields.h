@@ -9,7 +9,7 @@
 namespace indet {
 
 /// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F; P reactions, of which S
-/// states and U rays; B bounds of forces.
+/// states and U rays; B bounds of forces; C contacts whose states are kept.
 enum class Extent : std::uint8_t {
   kOne,
   kDirections,      ///< 2: along normal and tangent, or x and y
@@ -26,9 +26,10 @@ enum class Extent : std::uint8_t {
   kEnds,            ///< 2: minimum, maximum
   kReactionStates,  ///< S
   kReactionRays,    ///< U
-  kBounds           ///< B: of force_bounds()
+  kBounds,          ///< B: of force_bounds()
+  kStateContacts    ///< C: contacts whose states are kept, where not all are
 };
-/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "2", "S", "U", "B".
+/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "2", "S", "U", "B", "C".
 const char* to_string(Extent extent);
 
 /// When a field has something to say; else files leave it out.
@@ -166,7 +167,7 @@ void visit_certified(Part& r, Visit& visit) {
   attribute("unbounded", "of these, unbounded ones", FieldSource::kAnswer, r.unbounded);
   attribute("imprecise", "values that are uncertain", FieldSource::kAnswer, r.imprecise);
   attribute("failed", "values that were not found", FieldSource::kAnswer, r.failed);
-  visit(Field{"/equilibrium", "residual", "mg", "largest imbalance of the extremal states",
+  visit(Field{"/equilibrium", "residual", "mg", "largest imbalance of the extremal states, kept or not",
               FieldSource::kRounding},
         r.residual);
   attribute("worst_primal_residual", "largest entry of primal_residual", FieldSource::kRounding,
@@ -207,6 +208,14 @@ void visit_reactions(Part& r, Visit& visit) {
 
 template <class Part, class Visit>
 void visit_extremal(Part& r, Visit& visit) {
+  visit(Field{"/ranges", "states", "1", "which extremal states are kept: none, canonical, solver, unknown",
+              FieldSource::kProblem},
+        r.state_kind);
+  visit(Field{"/ranges", "states_of", "1", "of which contacts: all, list, largest", FieldSource::kProblem},
+        r.states_of);
+  visit(Field{"/extremal", "contacts", "1", "these contacts, where not all", FieldSource::kAnswer,
+              Extent::kStateContacts, Extent::kOne, Presence::kWhereRows},
+        r.state_contacts);
   visit(Field{"/extremal", "states", "force", "extremal states (R_1, T_1, ..., R_M, T_M), each once",
               FieldSource::kState, Extent::kStates, Extent::kForces},
         r.states);
@@ -222,8 +231,8 @@ void visit_extremal(Part& r, Visit& visit) {
     visit(Field{"/ranges", name, "1", meaning, source, Extent::kContacts, Extent::kColumns}, value);
   };
   table("unique", "1 if only one state attains the value", FieldSource::kAnswer, r.unique);
-  table("vertex", "row of /extremal/states that attains the value, -1 for none", FieldSource::kState,
-        r.vertex);
+  table("vertex", "row of /extremal/states that attains the value, -1 where none is kept",
+        FieldSource::kState, r.vertex);
   table("ray", "row of /extremal/rays along which the value grows without limit, -1 for none",
         FieldSource::kProof, r.ray);
 }
@@ -238,9 +247,9 @@ void visit_measures(Part& r, Visit& visit) {
          FieldSource::kAnswer, r.delta_R);
   column("delta_T", "mg", "local indeterminacy of the tangential force, inf where unbounded",
          FieldSource::kAnswer, r.delta_T);
-  column("d_R", "mg", "global indeterminacy of the normal force, NaN where a state is missing",
+  column("d_R", "mg", "global indeterminacy of the normal force, NaN where a state is not kept",
          FieldSource::kState, r.d_R);
-  column("d_T", "mg", "global indeterminacy of the tangential force, NaN where a state is missing",
+  column("d_T", "mg", "global indeterminacy of the tangential force, NaN where a state is not kept",
          FieldSource::kState, r.d_T);
   column("R_star", "1", "place of the simulated normal force in its range, NaN if unknown",
          FieldSource::kAnswer, r.R_star);

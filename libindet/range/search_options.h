@@ -2,13 +2,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "libindet/lp/lp_solver.h"
+#include "libindet/lp/vertex.h"
 #include "libindet/pivoting/pivot_rule.h"
 #include "libindet/range/method.h"
 #include "libindet/range/paper_options.h"
 
 namespace indet {
+
+/// Told of a vertex and of the objectives that it settles (of which component c is minimised by 2c, maximised
+/// by 2c + 1).
+using VertexSink = std::function<void(const Vertex& vertex, std::span<const std::int64_t> objectives)>;
 
 struct SearchOptions {
   Method method = Method::kLp;
@@ -22,6 +28,9 @@ struct SearchOptions {
   bool canonical_states = true;
   /// Tell for each objective also the state that the solver happens to find (Extremum::solver_vertex).
   bool solver_states = false;
+  /// Where set, vertices are handed over as they settle objectives, each of these once, on the calling
+  /// thread; of those passed only the bases are held. Not with canonical_states or solver_states.
+  VertexSink sink;
   /// Called now and then with the numbers of objectives settled and asked for; false stops the search
   /// (Interrupted).
   std::function<bool(std::int64_t settled, std::int64_t total)> progress;

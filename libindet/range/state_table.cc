@@ -4,21 +4,23 @@
 
 namespace indet {
 
+InternalForces state_at(const ForcePolytope& polytope, std::size_t block, const Vertex& vertex) {
+  Eigen::VectorXd x = polytope.lightest;
+  if (vertex.basis != polytope.blocks[block].lightest) x(polytope.blocks[block].edges) = vertex.x;
+  return polytope.problem.state(x);
+}
+
 int StateTable::add(std::size_t block, const Vertex& vertex) {
   if (vertex.basis == polytope_.blocks[block].lightest) return lightest();
   const auto [entry, is_new] =
       numbers_.emplace(std::make_pair(static_cast<int>(block), vertex.basis), count());
-  if (is_new) {
-    Eigen::VectorXd x = polytope_.lightest;
-    x(polytope_.blocks[block].edges) = vertex.x;
-    append(x, static_cast<int>(block), vertex.basis);
-  }
+  if (is_new) append(state_at(polytope_, block, vertex), static_cast<int>(block), vertex.basis);
   return entry->second;
 }
 
 int StateTable::lightest() {
   const auto [entry, is_new] = numbers_.emplace(std::make_pair(-1, Basis{}), count());
-  if (is_new) append(polytope_.lightest, -1, {});
+  if (is_new) append(polytope_.problem.state(polytope_.lightest), -1, {});
   return entry->second;
 }
 
@@ -57,8 +59,8 @@ Rows<double> StateTable::rays() const {
   return rows;
 }
 
-void StateTable::append(const Eigen::VectorXd& x, int block, const Basis& basis) {
-  states_.push_back(polytope_.problem.state(x));
+void StateTable::append(const InternalForces& state, int block, const Basis& basis) {
+  states_.push_back(state);
   std::vector<std::int32_t> active;
   for (int b = 0; b < static_cast<int>(polytope_.blocks.size()); ++b) {
     const PolytopeBlock& other = polytope_.blocks[static_cast<std::size_t>(b)];

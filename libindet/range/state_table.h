@@ -12,6 +12,9 @@
 
 namespace indet {
 
+/// The state with one block at a vertex and everything else at the state of smallest total normal force.
+InternalForces state_at(const ForcePolytope& polytope, std::size_t block, const Vertex& vertex);
+
 /// Collects the distinct extremal states, each with the half-planes that define it, and the directions of
 /// unbounded growth.
 class StateTable {
@@ -19,8 +22,7 @@ class StateTable {
   /// `polytope` must outlive the table, and not be empty.
   explicit StateTable(const ForcePolytope& polytope) : polytope_(polytope) {}
 
-  /// The row of the state with one block at a vertex and everything else at the state of smallest total
-  /// normal force.
+  /// The row of state_at().
   int add(std::size_t block, const Vertex& vertex);
   /// The row of the state of smallest total normal force.
   int lightest();
@@ -34,7 +36,7 @@ class StateTable {
 
  private:
   int count() const { return static_cast<int>(states_.size()); }
-  void append(const Eigen::VectorXd& x, int block, const Basis& basis);
+  void append(const InternalForces& state, int block, const Basis& basis);
 
   const ForcePolytope& polytope_;
   std::map<std::pair<int, Basis>, int> numbers_;

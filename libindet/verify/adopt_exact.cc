@@ -63,6 +63,8 @@ Extrema stored_extrema(const ForceRanges& ranges) {
   extrema.claim = ranges.outcome;
   extrema.dual_residual = ranges.dual_residual;
   extrema.ray_residual = ranges.primal_residual;
+  extrema.value = ranges.value;
+  extrema.primal_residual = ranges.primal_residual;
   return extrema;
 }
 
@@ -123,6 +125,7 @@ ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const F
         const bool infinite = std::isinf(lower) && lower == upper;
         claim = infinite ? Outcome::kUnbounded : Outcome::kOptimal;
         vertex = infinite ? -1 : states.exact(check.vertex(i, column));
+        if (infinite) extrema.value(i, column) = lower;
         enclosures.lower(i, column) = lower;
         enclosures.upper(i, column) = upper;
         extrema.dual_residual(i, column) = 0;
@@ -133,6 +136,8 @@ ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const F
     }
   }
   states.write(extrema);
+  extrema.value = extrema.value.isFinite().select(extrema.value, kNaN);
+  note_states(extrema.states, extrema.vertex, StateChecker(packing), extrema);
   ForceRanges result = assemble(packing, ranges, ranges, extrema, enclosures);
   result.seconds = ranges.seconds;
   result.reactions = adopt_reactions(check.reactions, ranges.reactions, enclosures.proven);

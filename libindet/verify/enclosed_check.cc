@@ -40,7 +40,7 @@ void check_by_programs(const Packing& packing, const ForceRanges& ranges, const 
                        Comparisons& compare) {
   AnalyzeOptions options;
   options.method = Method::kLp;
-  options.canonical_states = false;
+  options.states.kind = StateChoice::Kind::kNone;
   options.contacts.kind = ContactChoice::Kind::kList;
   options.contacts.list = some_enclosed(ranges);
   options.progress = progress;

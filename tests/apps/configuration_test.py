@@ -77,7 +77,8 @@ class Configuration(program.ProgramTest):
         table = tomllib.loads(self.config_of("r.h5"))
         self.assertEqual(table["threads"], 1)
         self.assertEqual(table["analyze"], {"method": "lp", "accuracy": "standard", "contacts": "all", "seed": 1,
-                                            "formulation": "edge", "extremal-states": "auto", "output": "r.h5"})
+                                            "formulation": "edge", "extremal-states": "auto", "states-of": "all",
+                                            "output": "r.h5"})
         self.check_reads_back("r.h5", "provenance", "analyze", "p.h5")
 
     def test_the_resolved_configuration_of_a_scene_without_defaults_reads_back(self):

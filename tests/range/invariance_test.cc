@@ -122,7 +122,7 @@ TEST(Invariance, OtherUnitsGiveTheSameForces) {
 TEST(Invariance, ArbitraryStatesHaveTheSameValues) {
   for (const auto& [name, packing] : scenes()) {
     AnalyzeOptions options;
-    options.canonical_states = false;
+    options.states.kind = StateChoice::Kind::kSolver;
     const ForceRanges any = analyze(packing, options);
     const ForceRanges canonical = analyze(packing);
     EXPECT_TRUE(test::same_entries(canonical.value.matrix(), any.value.matrix(), 1e-9)) << name;

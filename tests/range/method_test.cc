@@ -39,7 +39,7 @@ ForceRanges walk_by(const PaperOptions& paper, const Packing& packing, bool cano
   AnalyzeOptions options;
   options.method = Method::kPivotingPaper;
   options.paper = paper;
-  options.canonical_states = canonical_states;
+  if (!canonical_states) options.states.kind = StateChoice::Kind::kSolver;
   options.threads = threads;
   return analyze(packing, options);
 }
@@ -144,7 +144,8 @@ TEST(Methods, TellTheStatesOfASearchWithoutCanonicalOnes) {
       options.method = method;
       options.solver_states = true;
       const ForceRanges both = analyze(packing, options);
-      options.solver_states = options.canonical_states = false;
+      options.solver_states = false;
+      options.states.kind = StateChoice::Kind::kSolver;
       const ForceRanges landed = analyze(packing, options);
       EXPECT_FALSE(landed.solver_states);
       ASSERT_TRUE(both.solver_states);

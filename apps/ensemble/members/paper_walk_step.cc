@@ -8,7 +8,7 @@ namespace indet {
 PaperWalkResult walk_as_the_paper(const Packing& packing, const ProgressCallback& progress) {
   AnalyzeOptions options;
   options.method = Method::kPivotingPaper;
-  options.canonical_states = false;
+  options.states.kind = StateChoice::Kind::kSolver;
   options.progress = progress;
   const ForceRanges ranges = analyze(packing, options);
   return {.d_R = ranges.d_R,
