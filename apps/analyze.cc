@@ -271,6 +271,7 @@ void print_quality(const ForceRanges& ranges) {
     fmt::print("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
                kTurn * firm.sensitivity);
   const int unique = ranges.unique.cast<int>().sum();
+  if (!ranges.reason.empty()) fmt::print("method {}: {}\n", to_string(ranges.method), ranges.reason);
   fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
              counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
   fmt::print("{}\n", describe_kept_states(ranges));
@@ -296,8 +297,9 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     fmt::print("\nwritten to {}\n", output);
     return;
   }
-  fmt::print("polytope of contact states: {}, dimension {} ({}), {}\n", to_string(ranges.status), ranges.dim,
-             describe_expected_dimension(packing), counted(ranges.blocks, "independent block"));
+  const std::string blocks = ranges.blocks >= 0 ? ", " + counted(ranges.blocks, "independent block") : "";
+  fmt::print("polytope of contact states: {}, dimension {} ({}){}\n", to_string(ranges.status), ranges.dim,
+             describe_expected_dimension(packing), blocks);
   if (ranges.sliding >= 0)
     fmt::print("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
   if (ranges.choice != ContactChoice::Kind::kAll)
@@ -332,7 +334,18 @@ int run(const AnalyzeCommand& options, const Context& context) {
   claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
   if (options.method != "auto") analysis.method = value_of(options.method, kMethods);
+  if (options.gap && analysis.method.value_or(Method::kBarrier) != Method::kBarrier)
+    throw UsageError("--gap has no effect without --method barrier, whose intervals it is about");
   if (options.gap) analysis.gap = *options.gap;
+  if (analysis.method == Method::kBarrier &&
+      (options.arguments.states == "canonical" || options.arguments.states == "solver" ||
+       options.arguments.states_of != "all"))
+    throw UsageError(
+        "--method barrier finds no extremal states; leave --extremal-states and --states-of out, or take "
+        "--method lp");
+  if (analysis.method == Method::kBarrier && is_exact(options.arguments))
+    throw UsageError(
+        "--accuracy exact starts from the vertices of --method lp, and --method barrier has none");
   if (analysis.method != Method::kPivotingPaper) require_no_walk(options.arguments);
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
     throw UsageError(

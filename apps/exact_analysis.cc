@@ -9,8 +9,7 @@
 namespace indet::app {
 
 ForceRanges analyze_exactly(const Packing& packing, AnalyzeOptions analysis, const Context& context) {
-  const auto asked_for = std::ssize(chosen_contacts(analysis.contacts, packing.contact_count()));
-  const StateChoice kept = limited(analysis.states, static_cast<int>(asked_for), packing.contact_count());
+  const StateChoice kept = limited(analysis.states, packing.contact_count());
   analysis.states = {.kind = kept.kind == StateChoice::Kind::kNone ? StateChoice::Kind::kSolver : kept.kind,
                      .within_limit = false};
   const ForceRanges ranges = analyze(packing, analysis);

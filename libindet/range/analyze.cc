@@ -136,12 +136,12 @@ AnalyzeOptions options_for(Accuracy accuracy) {
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
-  const StateChoice kept =
-      limited(options.states, static_cast<int>(contacts.size()), packing.contact_count());
+  const StateChoice kept = limited(options.states, packing.contact_count());
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
-  MethodChoice choice = options.method ? MethodChoice{*options.method, ""}
-                                       : choose_method(packing.contact_count(), kept.kind != StateChoice::Kind::kNone);
+  MethodChoice choice = options.method
+                            ? MethodChoice{*options.method, ""}
+                            : choose_method(packing.contact_count(), kept.kind != StateChoice::Kind::kNone);
   ForcePolytope polytope = find_polytope(packing, options, choice);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {

@@ -92,7 +92,7 @@ void visit_problem(Part& r, Visit& visit) {
   attribute("rank", "rank of the equations", r.rank);
   attribute("nullity", "dimension of the kernel", r.nullity);
   attribute("dim", "dimension of the polytope, -1 if it is empty", r.dim);
-  attribute("blocks", "independent parts of the polytope", r.blocks);
+  attribute("blocks", "independent parts of the polytope, -1 if not looked for", r.blocks);
   attribute("rank_ambiguous", "1 if the rank lies within rounding", r.rank_ambiguous);
   attribute("rank_gap", "smallest accepted over largest rejected singular value, estimated", r.rank_gap,
             FieldSource::kRounding);

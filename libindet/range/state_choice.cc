@@ -52,9 +52,9 @@ std::int64_t largest_state_bytes(int asked_for, int contacts) {
   return std::int64_t{4} * asked_for * 2 * contacts * static_cast<std::int64_t>(sizeof(double));
 }
 
-StateChoice limited(StateChoice choice, int asked_for, int contacts) {
+StateChoice limited(StateChoice choice, int contacts) {
   const bool is_limited = choice.within_limit && choice.keeps_all();
-  if (is_limited && largest_state_bytes(asked_for, contacts) > kStateLimit)
+  if (is_limited && largest_state_bytes(contacts, contacts) > kStateLimit)
     choice.kind = StateChoice::Kind::kNone;
   return choice;
 }

@@ -52,8 +52,9 @@ const char* to_string(StateChoice::Contacts contacts);  ///< "all", "list", "lar
 /// Bytes that the states of `asked_for` of `contacts` contacts can take.
 std::int64_t largest_state_bytes(int asked_for, int contacts);
 
-/// The choice with the limit applied.
-StateChoice limited(StateChoice choice, int asked_for, int contacts);
+/// The choice with the limit applied, for a packing of so many contacts, however many of them are asked for:
+/// states are what makes a large packing slow.
+StateChoice limited(StateChoice choice, int contacts);
 
 /// The contacts of a kList or kLargest, ascending. `value`: their extrema, in the columns of Column, ±inf
 /// where unbounded; of a contact with NaN among them no size is known.

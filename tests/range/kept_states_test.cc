@@ -178,11 +178,10 @@ TEST(KeptStates, DoNotDependOnTheNumberOfThreads) {
 
 TEST(StateChoice, IsLimitedBySize) {
   const StateChoice standard;
-  EXPECT_EQ(limited(standard, 1250, 1250).kind, Kind::kCanonical);
-  EXPECT_EQ(limited(standard, 1251, 1251).kind, Kind::kNone);
-  EXPECT_EQ(limited(standard, 40, 2726).kind, Kind::kCanonical) << "few are asked for";
-  EXPECT_EQ(limited({.within_limit = false}, 2726, 2726).kind, Kind::kCanonical);
-  EXPECT_EQ(limited({.contacts = Contacts::kLargest, .largest = 5}, 2726, 2726).kind, Kind::kCanonical);
+  EXPECT_EQ(limited(standard, 1250).kind, Kind::kCanonical);
+  EXPECT_EQ(limited(standard, 1251).kind, Kind::kNone);
+  EXPECT_EQ(limited({.within_limit = false}, 2726).kind, Kind::kCanonical);
+  EXPECT_EQ(limited({.contacts = Contacts::kLargest, .largest = 5}, 2726).kind, Kind::kCanonical);
 }
 
 TEST(StateChoice, TellsItsDefects) {

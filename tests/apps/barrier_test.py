@@ -1,0 +1,108 @@
+"""`indet analyze --method barrier`: intervals of values, what is stored of them, and when it is chosen.
+
+Arguments: the indet executable.
+"""
+
+import json
+import pathlib
+import sys
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import program  # noqa: E402
+
+ENDS = ["R_min", "R_max", "T_min", "T_max"]
+
+
+class Barrier(program.ProgramTest):
+    """A pile of 60 disks."""
+
+    def setUp(self):
+        super().setUp()
+        self.run_indet("simulate", "--protocol", "md1", "--disks", "60", "--seed", "1", "--quiet", "-o", "p.h5")
+
+    def analyze(self, output, *options):
+        return self.run_indet("analyze", "p.h5", "-o", output, *options).stdout
+
+    def open(self, name):
+        file = h5py.File(self.folder / name)
+        self.addCleanup(file.close)
+        return file
+
+    def test_intervals_hold_the_values_of_linear_programs(self):
+        self.analyze("lp.h5")
+        text = self.analyze("b.h5", "--method", "barrier", "--gap", "1e-7")
+        self.assertIn("found by the barrier method (gap 1e-07)", text)
+        lp, barrier = self.open("lp.h5"), self.open("b.h5")
+        mg = barrier["equilibrium"].attrs["force_unit"]
+        names = h5py.check_enum_dtype(barrier["ranges/outcome"].dtype)
+        self.assertEqual(names["enclosed"], 5)
+        self.assertNotIn("enclosed", h5py.check_enum_dtype(lp["ranges/outcome"].dtype))
+        self.assertTrue((barrier["ranges/outcome"][()] == names["enclosed"]).all())
+        self.assertEqual(barrier["equilibrium"].attrs["gap"], 1e-7)
+        self.assertEqual(barrier["equilibrium"].attrs["enclosed"], barrier["equilibrium"].attrs["objectives"])
+        for k, end in enumerate(ENDS):
+            lower, upper = barrier["ranges/lower"][:, k], barrier["ranges/upper"][:, k]
+            value = barrier["ranges"][end][()]
+            np.testing.assert_allclose(value, (lower + upper) / 2, rtol=1e-14)
+            self.assertTrue((upper - lower <= 1e-7 * np.maximum(mg, abs(value))).all())
+            self.assertTrue((lower <= lp["ranges/upper"][:, k]).all() and (upper >= lp["ranges/lower"][:, k]).all())
+        self.assertEqual(barrier["extremal/states"].shape[0], 0)
+
+    def test_verify_checks_them(self):
+        self.analyze("b.h5", "--method", "barrier")
+        text = self.run_indet("verify", "b.h5").stdout
+        self.assertIn("0 contradictions", text)
+        self.assertIn("linear programs found again", text)
+        with h5py.File(self.folder / "b.h5", "r+") as file:  # an interval beside the value
+            for name, shift in [("lower", 1), ("upper", 1)]:
+                file["ranges"][name][0, 1] += shift
+            file["ranges/R_max"][0] += 1
+            file["ranges/delta_R"][0] += 1 / file["equilibrium"].attrs["force_unit"]
+        result = self.run_indet("verify", "b.h5", status=5)
+        self.assertIn("contact 0 R_max", result.stdout + result.stderr)
+
+    def test_any_number_of_threads_gives_the_same_contents(self):
+        digests = set()
+        for threads in ["1", "2", "3"]:
+            self.analyze("b.h5", "--method", "barrier", "--threads", threads)
+            digests.add(self.open("b.h5").attrs["content_sha256"])
+        self.assertEqual(len(digests), 1)
+
+    def test_options_that_do_not_go_together(self):
+        for options, text in [(["--method", "lp", "--gap", "1e-3"], "--gap has no effect"),
+                              (["--method", "barrier", "--extremal-states", "canonical"], "no extremal states"),
+                              (["--method", "barrier", "--states-of", "largest:3"], "no extremal states"),
+                              (["--method", "barrier", "--accuracy", "exact"], "starts from the vertices"),
+                              (["--method", "barrier", "--gap", "0"], "--gap")]:
+            with self.subTest(options):
+                result = self.run_indet("analyze", "p.h5", "-o", "x.h5", *options, status=2)
+                self.assertIn(text, result.stderr)
+                self.assertFalse((self.folder / "x.h5").exists())
+
+    def test_auto_says_what_it_chose(self):
+        for options, method in [([], "lp"), (["--extremal-states", "none"], "lp")]:
+            found = json.loads(self.run_indet("--json", "analyze", "p.h5", "-o", "a.h5", *options).stdout)
+            self.assertEqual(found["method"], method)
+        reason = self.open("a.h5")["provenance/work"].attrs["reason"]
+        self.assertIn("small", reason)
+
+    def test_a_sample_of_contacts(self):
+        self.analyze("b.h5", "--method", "barrier", "--contacts", "3,5-7")
+        outcome = self.open("b.h5")["ranges/outcome"][()]
+        self.assertEqual(sorted(np.flatnonzero((outcome == 5).all(axis=1))), [3, 5, 6, 7])
+
+
+class Special(program.ProgramTest):
+    def test_a_packing_that_cannot_stand(self):
+        self.write("incline", program.incline())
+        self.run_indet("import", "--format", "csv", "incline", "-o", "p.h5")
+        result = self.run_indet("analyze", "p.h5", "--method", "barrier", "-o", "r.h5", status=4)
+        self.assertIn("cannot stand", result.stdout)
+        self.assertIn("0 contradictions", self.run_indet("verify", "r.h5").stdout)
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,146 @@
+#include "libindet/range/barrier_ranges.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "libindet/range/analyze.h"
+#include "tests/support/zoo.h"
+
+namespace indet {
+namespace {
+
+ForceRanges analyze_by(Method method, const Packing& packing, double gap = 1e-6, int threads = 1) {
+  AnalyzeOptions options;
+  options.method = method;
+  options.gap = gap;
+  options.threads = threads;
+  options.states.kind = StateChoice::Kind::kNone;
+  return analyze(packing, options);
+}
+
+/// Intervals of the same values meet, and are as narrow as asked for.
+void expect_same_values(const ForceRanges& lp, const ForceRanges& barrier) {
+  ASSERT_EQ(lp.status, barrier.status);
+  EXPECT_EQ(lp.dim, barrier.dim);
+  EXPECT_EQ(lp.rank, barrier.rank);
+  EXPECT_EQ(lp.objectives, barrier.objectives);
+  if (lp.doubtful) return;
+  EXPECT_FALSE(barrier.doubtful);
+  EXPECT_EQ(barrier.certified, lp.certified);
+  for (Eigen::Index i = 0; i < lp.value.rows(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      SCOPED_TRACE("contact " + std::to_string(i) + ", " + to_string(static_cast<Column>(column)));
+      if (!std::isfinite(lp.value(i, column))) {
+        EXPECT_EQ(lp.outcome(i, column), barrier.outcome(i, column));
+        continue;
+      }
+      EXPECT_LE(barrier.lower(i, column), lp.upper(i, column));
+      EXPECT_GE(barrier.upper(i, column), lp.lower(i, column));
+      if (barrier.method != Method::kBarrier) continue;
+      EXPECT_EQ(barrier.outcome(i, column), Outcome::kEnclosed);
+      EXPECT_LT(barrier.vertex(i, column), 0);
+      const double size = std::max(1.0, std::abs(barrier.value(i, column)) / barrier.force_unit);
+      EXPECT_LE((barrier.upper(i, column) - barrier.lower(i, column)) / barrier.force_unit,
+                barrier.gap * size);
+    }
+  }
+  ASSERT_EQ(lp.reactions.count(), barrier.reactions.count());
+  for (Eigen::Index k = 0; k < lp.reactions.count(); ++k) {
+    for (const int end : {0, 1}) {
+      if (!std::isfinite(lp.reactions.value(k, end))) continue;
+      EXPECT_LE(barrier.reactions.lower(k, end), lp.reactions.upper(k, end));
+      EXPECT_GE(barrier.reactions.upper(k, end), lp.reactions.lower(k, end));
+    }
+  }
+}
+
+/// Bounded, unbounded, empty, a point; with and without friction; with closed edges.
+std::vector<Packing> small_packings() {
+  return {zoo::wedge(0.4, 0.3),
+          zoo::wedge(1.4, 0.3),
+          zoo::disk_on_floor(0.3),
+          zoo::disk_on_incline(0.1, 1),
+          zoo::pyramid(0.8, 0.1, 1),
+          zoo::pyramid(0.8, 1, 0.1),
+          zoo::pyramid(0.8, 1, 1),
+          zoo::column(9, 0.4, 0.3),
+          zoo::frictionless_column(5, 0.4),
+          zoo::pinched_disk(0.3),
+          zoo::two_wedges(0.4, 0.3, 1.4, 0.3),
+          zoo::corner(0.4, 1),
+          zoo::corner(0.4, 0.9),
+          zoo::wedge_and_corner(0.4, 0.3),
+          zoo::wedge_and_loose_disk(0.4, 0.3, 1),
+          zoo::lattice_pile(5, 0.6),
+          zoo::lattice_pile(5, 0.3)};
+}
+
+TEST(BarrierRanges, AgreeWithLinearProgramsInTheZoo) {
+  int found = 0;
+  for (const Packing& packing : small_packings()) {
+    SCOPED_TRACE(found);
+    const ForceRanges barrier = analyze_by(Method::kBarrier, packing);
+    expect_same_values(analyze_by(Method::kLp, packing), barrier);
+    found += barrier.method == Method::kBarrier ? 1 : 0;
+  }
+  EXPECT_GE(found, 10);
+}
+
+TEST(BarrierRanges, AgreeWithLinearProgramsInPiles) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Packing packing = zoo::random_pile(seed, 4 + static_cast<int>(seed), seed % 3 == 0 ? -1 : 0.4);
+    expect_same_values(analyze_by(Method::kLp, packing), analyze_by(Method::kBarrier, packing));
+  }
+}
+
+TEST(BarrierRanges, AreAsNarrowAsAskedFor) {
+  const Packing packing = zoo::random_pile(3, 40, 0.4);
+  const ForceRanges lp = analyze_by(Method::kLp, packing);
+  for (const double gap : {1e-1, 1e-3, 1e-8}) {
+    SCOPED_TRACE(gap);
+    const ForceRanges barrier = analyze_by(Method::kBarrier, packing, gap);
+    EXPECT_EQ(barrier.gap, gap);
+    EXPECT_EQ(barrier.enclosed, barrier.objectives);
+    expect_same_values(lp, barrier);
+  }
+}
+
+TEST(BarrierRanges, DoNotDependOnTheNumberOfThreads) {
+  const Packing packing = zoo::random_pile(3, 40, 0.4);
+  const ForceRanges one = analyze_by(Method::kBarrier, packing);
+  for (const int threads : {2, 3}) {
+    const ForceRanges several = analyze_by(Method::kBarrier, packing, 1e-6, threads);
+    EXPECT_TRUE((one.lower == several.lower).all());
+    EXPECT_TRUE((one.upper == several.upper).all());
+    EXPECT_TRUE((one.sensitivity == several.sensitivity).all());
+    EXPECT_EQ(one.pivots, several.pivots);
+  }
+}
+
+TEST(BarrierRanges, StopWhenAsked) {
+  AnalyzeOptions options;
+  options.method = Method::kBarrier;
+  options.progress = [](const Progress& progress) { return progress.done == 0; };
+  EXPECT_THROW(analyze(zoo::random_pile(3, 40, 0.4), options), Interrupted);
+}
+
+TEST(MethodChoice, TakesTheBarrierMethodForLargePackingsWithoutStates) {
+  EXPECT_EQ(choose_method(10000, true).method, Method::kLp);
+  EXPECT_EQ(choose_method(100, false).method, Method::kLp);
+  EXPECT_EQ(choose_method(10000, false).method, Method::kBarrier);
+  EXPECT_FALSE(choose_method(10000, false).reason.empty());
+}
+
+TEST(MethodChoice, FallsBackOnLinearProgramsWhereForcesAreUnbounded) {
+  const ForceRanges ranges = analyze_by(Method::kBarrier, zoo::wedge(1.4, 0.3));
+  EXPECT_EQ(ranges.status, PolytopeStatus::kUnbounded);
+  EXPECT_EQ(ranges.method, Method::kLp);
+  EXPECT_NE(ranges.reason.find("unbounded"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace indet
