@@ -135,11 +135,10 @@ class FieldReader {
 
  private:
   bool is_stored(const Field& field) const {
-    // A file of all contacts does not say so, and one of an earlier version not which states it has, or by
-    // which method it was made, or how.
-    const bool may_lack =
-        is(field.group, "/ranges") &&
-        (is(field.name, "contacts") || is(field.name, "states") || is(field.name, "states_of"));
+    // A file of all contacts, or of contacts that were equally likely, does not say so, and one of an earlier
+    // version not which states it has, or by which method it was made, or how.
+    const bool may_lack = is(field.group, "/ranges") && (is(field.name, "contacts") || is(field.name, "draws") ||
+                                                         is(field.name, "states") || is(field.name, "states_of"));
     const bool may_be_older =
         is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
@@ -224,10 +223,24 @@ class FieldReader {
   std::map<Extent, std::size_t> sizes_;
 };
 
+/// What was drawn is told of every contact, and counts up.
+void check_draw(const Hdf5File& file, const ContactDraw& draw) {
+  const auto refuse = [&](const char* object) { fail(file, object, "does not go with the draws"); };
+  if (draw.draws < 0) refuse("/ranges@draws");
+  if ((draw.draws > 0) != (draw.weight.size() > 0)) refuse("/ranges/draw_weight");
+  if (draw.drawn.size() != draw.weight.size() || draw.drawn.cast<std::int64_t>().sum() != draw.draws ||
+      (draw.drawn < 0).any())
+    refuse("/ranges/drawn");
+  if ((draw.weight <= 0).any()) refuse("/ranges/draw_weight");
+  if (draw.centre.rows() != draw.weight.size()) refuse("/ranges/centre");
+  if (draw.width.rows() != draw.weight.size()) refuse("/ranges/width");
+}
+
 /// Numbers of contacts, and what they tell of a sample.
 void check_request(const Hdf5File& file, const ForceRanges& ranges) {
   if (ranges.requested < 0 || ranges.requested > ranges.value.rows())
     fail(file, "/ranges@requested", fmt::format("{} of {} contacts", ranges.requested, ranges.value.rows()));
+  check_draw(file, ranges);
   if (ranges.choice != ContactChoice::Kind::kSample) return;
   if (file.double_attribute("/ranges", "confidence") != kConfidence)
     fail(file, "/ranges@confidence", fmt::format("is not {}", kConfidence));

@@ -50,7 +50,8 @@ void write_grid(Hdf5File& file, const Packing& packing) {
   file.make_group(group + "/CellData");
 }
 
-/// Calls visit(field, table) for each field of the ranges with a row a contact. A table has 1 or 4 columns.
+/// Calls visit(field, table) for each field of the ranges with a row a contact. A table has 1, 2 or 4
+/// columns.
 template <class Visit>
 void visit_contact_fields(const ForceRanges& ranges, const Visit& visit) {
   visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {

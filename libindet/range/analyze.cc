@@ -109,9 +109,27 @@ ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& option
   return polytope;
 }
 
-ContactRequest describe_request(const ContactChoice& choice, std::size_t requested) {
+/// The contacts whose ranges are to be found, ascending.
+struct Wanted {
+  std::vector<int> contacts;
+  ContactRequest request;
+};
+
+Wanted choose_contacts(const ContactChoice& choice, const ForcePolytope& polytope, int contacts) {
+  Wanted wanted;
+  wanted.request.choice = choice.kind;
   const bool is_sample = choice.kind == ContactChoice::Kind::kSample;
-  return {choice.kind, static_cast<int>(requested), is_sample ? static_cast<std::int64_t>(choice.seed) : -1};
+  if (is_sample) wanted.request.sample_seed = static_cast<std::int64_t>(choice.seed);
+  if (is_sample && polytope.central && choice.sample_size < contacts) {
+    static_cast<ContactDraw&>(wanted.request) = draw_contacts(polytope, choice.sample_size, choice.seed);
+    for (int i = 0; i < contacts; ++i) {
+      if (wanted.request.drawn[i] > 0) wanted.contacts.push_back(i);
+    }
+  } else {
+    wanted.contacts = chosen_contacts(choice, contacts);
+  }
+  wanted.request.requested = static_cast<int>(wanted.contacts.size());
+  return wanted;
 }
 
 }  // namespace
@@ -134,8 +152,6 @@ AnalyzeOptions options_for(Accuracy accuracy) {
 }
 
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
-  const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
-  if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   const StateChoice kept = limited(options.states, packing.contact_count());
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
@@ -143,14 +159,15 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
                             ? MethodChoice{*options.method, ""}
                             : choose_method(packing.contact_count(), kept.kind != StateChoice::Kind::kNone);
   ForcePolytope polytope = find_polytope(packing, options, choice);
+  const auto [contacts, request] = choose_contacts(options.contacts, polytope, packing.contact_count());
+  if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
     BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, interval_options(options));
     found.extrema.reason = std::move(choice.reason);
     stopwatch.mark("ranges");
     ForceRanges ranges =
-        assemble(packing, summarise(packing, polytope), describe_request(options.contacts, contacts.size()),
-                 found.extrema, found.enclosures);
+        assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
     ranges.reactions = std::move(found.reactions);
     stopwatch.mark("measures");
     ranges.seconds = std::move(seconds);
@@ -169,8 +186,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   const bool reactions_proven =
       enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);
   stopwatch.mark("enclosures");
-  ForceRanges ranges = assemble(packing, summarise(packing, polytope),
-                                describe_request(options.contacts, contacts.size()), extrema, enclosures);
+  ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);
   stopwatch.mark("measures");
   ranges.seconds = std::move(seconds);

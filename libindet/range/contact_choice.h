@@ -3,13 +3,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "libindet/range/contact_draw.h"
+
 namespace indet {
 
 /// The contacts whose ranges are wanted.
 struct ContactChoice {
   enum class Kind : std::uint8_t { kAll, kSample, kList };
   Kind kind = Kind::kAll;
-  int sample_size = 0;      ///< kSample: how many contacts, drawn without replacement
+  /// kSample: how many draws. They are those of contact_draw.h where the analytic centre is there, and of
+  /// equally likely contacts without replacement elsewhere.
+  int sample_size = 0;
   std::uint64_t seed = 1;   ///< kSample
   std::vector<int> list{};  ///< kList: indices of contacts, in any order
 };
@@ -21,10 +25,10 @@ const char* to_string(ContactChoice::Kind kind);
 /// same seed gives the same sample on any machine. Precondition: 0 ≤ list entries < contacts.
 std::vector<int> chosen_contacts(const ContactChoice& choice, int contacts);
 
-/// Which contacts were asked for, as results tell it.
-struct ContactRequest {
+/// Which contacts were asked for, as results tell it, and how they were drawn.
+struct ContactRequest : ContactDraw {
   ContactChoice::Kind choice = ContactChoice::Kind::kAll;
-  int requested = -1;             ///< How many contacts.
+  int requested = -1;             ///< How many contacts, each counted once.
   std::int64_t sample_seed = -1;  ///< Of a sample; −1: of none.
 };
 

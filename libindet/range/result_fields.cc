@@ -50,6 +50,8 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.choice != ContactChoice::Kind::kAll;
     case Presence::kSample:
       return ranges.choice == ContactChoice::Kind::kSample;
+    case Presence::kDrawn:
+      return ranges.draws > 0;
     case Presence::kPaper:
       return ranges.method == Method::kPivotingPaper;
     case Presence::kBarrier:

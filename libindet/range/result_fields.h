@@ -12,7 +12,7 @@ namespace indet {
 /// states and U rays; B bounds of forces; C contacts whose states are kept.
 enum class Extent : std::uint8_t {
   kOne,
-  kDirections,      ///< 2: along normal and tangent, or x and y
+  kDirections,      ///< 2: along normal and tangent (R and T), or x and y
   kComponents,      ///< 3: x, y, rotation
   kColumns,         ///< 4: R_min, R_max, T_min, T_max
   kDisks,           ///< N
@@ -37,6 +37,7 @@ enum class Presence : std::uint8_t {
   kAlways,
   kSubset,    ///< where not all contacts were asked for
   kSample,    ///< where a sample of contacts was
+  kDrawn,     ///< where that was drawn with unequal probabilities
   kPaper,     ///< where the method is kPivotingPaper
   kBarrier,   ///< where the method is kBarrier
   kReason,    ///< where the method was chosen by the program
@@ -128,7 +129,20 @@ void visit_request(Part& r, Visit& visit) {
   };
   attribute("contacts", "which contacts were asked for: list, sample", Presence::kSubset, r.choice);
   attribute("requested", "number of contacts that were asked for", Presence::kSubset, r.requested);
+  attribute("draws", "draws with unequal probabilities, with replacement", Presence::kDrawn, r.draws);
   attribute("sample_seed", "seed that drew the sample", Presence::kSample, r.sample_seed);
+  const auto table = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                         Extent columns, auto& value) {
+    visit(Field{"/ranges", name, unit, meaning, source, Extent::kContacts, columns, Presence::kWhereRows},
+          value);
+  };
+  table("draw_weight", "1", "a whole number that the probability of a draw is proportional to",
+        FieldSource::kAnswer, Extent::kOne, r.weight);
+  table("drawn", "1", "how often the contact was drawn", FieldSource::kAnswer, Extent::kOne, r.drawn);
+  table("centre", "force", "R and T of the analytic centre", FieldSource::kAnswer, Extent::kDirections,
+        r.centre);
+  table("width", "force", "widths of R and T of the Dikin ellipsoid about the centre", FieldSource::kAnswer,
+        Extent::kDirections, r.width);
 }
 
 template <class Part, class Visit>

@@ -136,6 +136,26 @@ TEST(RangesFile, AChoiceOfContactsComesBack) {
               ThrowsMessage<Hdf5ReadError>(HasSubstr("/ranges@requested: 6 of 5 contacts")));
 }
 
+TEST(RangesFile, HowContactsWereDrawnComesBack) {
+  const test::TemporaryFolder folder;
+  ForceRanges written = test::sample_ranges();
+  written.choice = ContactChoice::Kind::kSample;
+  written.requested = 3;
+  written.draws = 4;
+  written.weight.setLinSpaced(5, 3, 7);
+  written.drawn.setZero(5);
+  written.drawn.head(3) << 1, 2, 1;
+  written.centre.setConstant(5, 2, 1.5);
+  written.width.setConstant(5, 2, 0.75);
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  const ForceRanges read = read_ranges(folder / "r.h5");
+  EXPECT_TRUE(test::same_bytes(read, written));
+  ++written.drawn[0];
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },
+              ThrowsMessage<Hdf5ReadError>(HasSubstr("/ranges/drawn: does not go with the draws")));
+}
+
 TEST(RangesFile, WhatThePaperCountsComesBack) {
   const test::TemporaryFolder folder;
   ForceRanges written = test::sample_ranges();

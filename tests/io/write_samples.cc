@@ -57,6 +57,12 @@ int main(int argc, char** argv) {
     rare.choice = indet::ContactChoice::Kind::kSample;
     rare.requested = 3;
     rare.sample_seed = 12;
+    rare.draws = 4;
+    rare.weight.setLinSpaced(5, 3, 7);
+    rare.drawn.setZero(5);
+    rare.drawn.head(3) << 1, 2, 1;
+    rare.centre.setConstant(5, 2, 1.5);
+    rare.width.setConstant(5, 2, 0.75);
     rare.method = indet::Method::kPivotingPaper;
     rare.paper_options.neighbour = indet::NeighbourRule::kRandom;
     rare.motion.setConstant(3, 3, 0.5);
