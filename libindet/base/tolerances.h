@@ -311,6 +311,10 @@ inline constexpr double kHullClear = 1e-9;
 /// A force that moves at most this far along every unit direction within F is determined.
 inline constexpr double kDeterminedForce = 1e-9;
 
+/// The analytic centre and the widths that contacts are drawn by: imbalance and widths relative to the
+/// largest force, and the distance to the centre over its ellipsoid.
+inline constexpr double kDrawCentre = 1e-6;
+
 /// A half-plane with up to this much slack (relative to the largest force) is tight at a state.
 inline constexpr double kTightHalfPlane = 1e-9;
 

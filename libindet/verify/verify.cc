@@ -12,6 +12,7 @@
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/cell_motion_check.h"
 #include "libindet/verify/comparisons.h"
+#include "libindet/verify/draws_check.h"
 #include "libindet/verify/enclosed_check.h"
 #include "libindet/verify/estimate_check.h"
 #include "libindet/verify/kept_states_check.h"
@@ -291,6 +292,7 @@ class Verifier {
     compare_.equal_count(ranges_.requested, static_cast<std::int64_t>(delta_R.size()), "requested");
     if (ranges_.choice != ContactChoice::Kind::kSample) return;
     compare_.require(ranges_.sample_seed >= 0, "sample_seed: {} is stored", ranges_.sample_seed);
+    if (ranges_.draws > 0) return check_draws(packing_, ranges_, problem_, compare_);
     check_estimate(ranges_.sample_R, delta_R, packing_.contact_count(), "delta_R", compare_);
     check_estimate(ranges_.sample_T, delta_T, packing_.contact_count(), "delta_T", compare_);
   }
@@ -358,7 +360,7 @@ class Verifier {
     compare_.leave_unchecked(
         "rank_gap, smallest_accepted, largest_rejected, rank_ambiguous, doubtful of /equilibrium (they "
         "belong to the factorisation of the analysis)");
-    if (ranges_.choice == ContactChoice::Kind::kSample)
+    if (ranges_.choice == ContactChoice::Kind::kSample && ranges_.draws == 0)
       compare_.leave_unchecked("sample_seed (contacts are not drawn again)");
     if (ranges_.status == PolytopeStatus::kEmpty) return;
     if (stateless_ > 0) {
