@@ -132,8 +132,9 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
   command
       .add_option(
           "--contacts", arguments.contacts,
-          "Which contacts to find the ranges of: all; sample:K, that is K contacts drawn at random, which "
-          "gives a confidence interval for the mean over all; or a list like 3,7,12-20 (numbered from 0)")
+          "Which contacts to find the ranges of: all; sample:K, that is K contacts drawn at random (with "
+          "--method barrier those more often whose ranges promise to be large), which gives a confidence "
+          "interval for the mean over all; or a list like 3,7,12-20 (numbered from 0)")
       ->type_name("all|sample:K|LIST")
       ->capture_default_str();
   command

@@ -22,6 +22,7 @@
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
+#include "apps/sample_report.h"
 #include "apps/wording.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
@@ -151,16 +152,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                {"mean_d_T", json_number(d_T.mean)},
                {"max_d_T", json_number(d_T.max)},
                {"seconds", ranges.seconds}});
-  if (ranges.choice == ContactChoice::Kind::kSample) {
-    json["sample"] = {{"seed", ranges.sample_seed}, {"confidence", kConfidence}};
-    for (const auto& [name, estimate] :
-         {std::pair("delta_R", ranges.sample_R), {"delta_T", ranges.sample_T}}) {
-      json["sample"][name] = {{"mean", json_number(estimate.mean)},
-                              {"low", json_number(estimate.low)},
-                              {"high", json_number(estimate.high)},
-                              {"band", json_number(estimate.band)}};
-    }
-  }
+  if (ranges.choice == ContactChoice::Kind::kSample) json["sample"] = sample_to_json(ranges);
   if (ranges.reactions.count() > 0) json["reactions"] = reactions_to_json(packing, ranges.reactions);
   if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges);
   if (ranges.largest_norm >= 0)
@@ -224,24 +216,6 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
     for (double& v : value) v = std::abs(v) < tolerance::kPrintedZero ? 0 : v;
     fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
                contact_name(packing, ContactId(k)), value[kMinR], value[kMaxR], value[kMinT], value[kMaxT]);
-  }
-}
-
-/// What the means over all contacts are, as far as the sample tells.
-void print_sample(const Packing& packing, const ForceRanges& ranges) {
-  fmt::print("\nestimate for all {}, from {} drawn at random (seed {}), with {:.0f} % confidence\n",
-             counted(packing.contact_count(), "contact"), ranges.requested, ranges.sample_seed,
-             100 * kConfidence);
-  for (const auto& [name, e] : {std::pair("δR", ranges.sample_R), {"δT", ranges.sample_T}}) {
-    if (std::isnan(e.low)) {
-      const bool is_small = ranges.requested < kFewestForInterval;
-      fmt::print(
-          "  {}   mean {:.4g} in the sample; no confidence interval{}\n", name, e.mean,
-          is_small ? fmt::format(" (--contacts sample:{} or more gives one)", kFewestForInterval) : "");
-    } else {
-      fmt::print("  {}   mean between {:.4g} and {:.4g}; distribution function known to ± {:.2g}\n", name,
-                 e.low, e.high, e.band);
-    }
   }
 }
 
@@ -311,7 +285,7 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
   };
   if (packing.contact_count() > 0) {
-    fmt::print("\nindeterminacy (mg)\n");
+    fmt::print("\nindeterminacy{} (mg)\n", ranges.draws > 0 ? " of the contacts that were drawn" : "");
     line("δR", ranges.delta_R);
     line("δT", ranges.delta_T);
     if (ranges.states.rows() > 0) {
