@@ -203,6 +203,13 @@ double common_seconds(const std::vector<Entry>& entries) {
   return least;
 }
 
+/// The same contacts for every method: each would draw a sample in its own way.
+void fix_sample(ContactChoice& choice, int contacts) {
+  if (choice.kind != ContactChoice::Kind::kSample) return;
+  choice.list = chosen_contacts(choice, contacts);
+  choice.kind = ContactChoice::Kind::kList;
+}
+
 int run(const CompareCommand& options, const Context& context) {
   const Packing packing = read_packing(open_packing(options.packing));
   start_libraries(packing);
@@ -210,6 +217,7 @@ int run(const CompareCommand& options, const Context& context) {
   for (const Method method : kMethods) {
     AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
     analysis.method = method;
+    fix_sample(analysis.contacts, packing.contact_count());
     if (analysis.progress) {
       analysis.progress = [&, report = analysis.progress](const Progress& progress) {
         return report({to_string(method), progress.done, progress.total, progress.details});

@@ -86,6 +86,11 @@ class Draws(program.ProgramTest):
         self.assertIn("drawn", header)
         self.assertIn("draw_weight", header)
 
+    def test_methods_are_compared_on_the_same_contacts(self):
+        report = json.loads(self.run_indet("compare", "p.h5", "--contacts", "sample:5", "--tolerance", "1e-4", "--json").stdout)
+        self.assertEqual(report["requested"], 5)
+        self.assertEqual([method["objectives"] for method in report["methods"]], [20] * len(report["methods"]))
+
     def test_equally_likely_contacts_elsewhere(self):
         for options in [("--method", "lp", "--contacts", "sample:5"), ("--method", "barrier", "--contacts", "sample:999"),
                         ("--method", "barrier", "--contacts", "0-3")]:
