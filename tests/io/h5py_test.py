@@ -163,7 +163,7 @@ class Samples(unittest.TestCase):
         self.assertEqual(done.stdout, "True\nTrue\n")
 
     def test_files_have_the_fields_of_the_list(self):
-        sizes = {"2": 2, "3": 3, "4": 4, "N": 3, "W": 2, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3, "P": 4, "S": 3, "U": 1, "B": 6}
+        sizes = {"2": 2, "3": 3, "4": 4, "N": 3, "W": 2, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3, "P": 4, "S": 3, "U": 1, "B": 6, "C": 2}
         types = {"f8": "<f8", "i4": "<i4", "u1": "u1", "enum": "u1"}
         with h5py.File(f"{FOLDER}/rare.h5", "r") as file:
             for group, name, kind, shape, unit, meaning in FIELDS:

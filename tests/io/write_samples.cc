@@ -56,6 +56,9 @@ int main(int argc, char** argv) {
     indet::ForceRanges rare = indet::test::sample_ranges();
     rare.choice = indet::ContactChoice::Kind::kSample;
     rare.requested = 3;
+    rare.state_kind = indet::StateChoice::Kind::kSolver;
+    rare.states_of = indet::StateChoice::Contacts::kList;
+    rare.state_contacts = Eigen::Array2i(1, 4);
     rare.sample_seed = 12;
     rare.draws = 4;
     rare.weight.setLinSpaced(5, 3, 7);
