@@ -245,7 +245,8 @@ void print_quality(const ForceRanges& ranges) {
     fmt::print("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
                kTurn * firm.sensitivity);
   const int unique = ranges.unique.cast<int>().sum();
-  if (!ranges.reason.empty()) fmt::print("method {}: {}\n", to_string(ranges.method), ranges.reason);
+  const bool had_choice = !ranges.reason.empty() && ranges.state_kind == StateChoice::Kind::kNone;
+  if (had_choice) fmt::print("method {}: {}\n", to_string(ranges.method), ranges.reason);
   fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
              counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
   fmt::print("{}\n", describe_kept_states(ranges));

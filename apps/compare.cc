@@ -214,7 +214,7 @@ int run(const CompareCommand& options, const Context& context) {
   const Packing packing = read_packing(open_packing(options.packing));
   start_libraries(packing);
   std::vector<Entry> entries;
-  for (const Method method : kMethods) {
+  for (const Method method : kVertexMethods) {
     AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
     analysis.method = method;
     fix_sample(analysis.contacts, packing.contact_count());

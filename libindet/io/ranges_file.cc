@@ -137,12 +137,14 @@ class FieldReader {
   bool is_stored(const Field& field) const {
     // A file of all contacts, or of contacts that were equally likely, does not say so, and one of an earlier
     // version not which states it has, or by which method it was made, or how.
-    const bool may_lack = is(field.group, "/ranges") && (is(field.name, "contacts") || is(field.name, "draws") ||
-                                                         is(field.name, "states") || is(field.name, "states_of"));
+    const bool may_lack =
+        is(field.group, "/ranges") && (is(field.name, "contacts") || is(field.name, "draws") ||
+                                       is(field.name, "states") || is(field.name, "states_of"));
     const bool may_be_older =
         is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
-    if (may_lack || may_be_older) return file_.has_attribute(field.group, field.name);
+    const bool is_of_intervals = field.presence == Presence::kInterval;
+    if (may_lack || may_be_older || is_of_intervals) return file_.has_attribute(field.group, field.name);
     return is_present(field.presence, ranges_, 1);
   }
 

@@ -63,7 +63,9 @@ class BarrierSearch {
     extrema.vertex.setConstant(count, 4, -1);
     extrema.unique.setZero(count, 4);
     extrema.ray.setConstant(count, 4, -1);
-    for (auto* table : {&extrema.value, &extrema.primal_residual, &extrema.dual_residual, &extrema.ray_residual}) table->setConstant(count, 4, kNaN);
+    for (auto* table :
+         {&extrema.value, &extrema.primal_residual, &extrema.dual_residual, &extrema.ray_residual})
+      table->setConstant(count, 4, kNaN);
     extrema.states.resize(0, 2 * count);
     extrema.rays.resize(0, 2 * count);
     extrema.active.resize(0, std::max(0, polytope_.dim));

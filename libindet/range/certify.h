@@ -29,10 +29,10 @@ struct Certified {
                                                                ///< states, kept or not, in force units.
 };
 
-/// Takes the values and the residuals of their states, or the middle of the interval where there is no state, lets go of
-/// enclosures that rest on a decision about F which is in doubt, and lets the residuals, or the width of the interval,
-/// decide between certified and `imprecise`; then counts outcomes. Where F is empty all objectives count, and none has an
-/// outcome.
+/// Takes the values and the residuals of their states, or the middle of the interval where there is no state,
+/// lets go of enclosures that rest on a decision about F which is in doubt, and lets the residuals, or the
+/// width of the interval, decide between certified and `imprecise`; then counts outcomes. Where F is empty
+/// all objectives count, and none has an outcome.
 Certified certify(const ProblemSummary& problem, const Extrema& extrema, const Enclosures& enclosures);
 
 }  // namespace indet

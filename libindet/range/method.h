@@ -18,6 +18,9 @@ enum class Method : std::uint8_t {
 inline constexpr std::array kMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau,
                                         Method::kBarrier};
 
+/// Those that find vertices, the same ones but for chance.
+inline constexpr std::array kVertexMethods = {Method::kLp, Method::kPivotingPaper, Method::kPivotingTableau};
+
 /// "lp", "pivoting-paper", "pivoting-tableau", "barrier".
 const char* to_string(Method method);
 

@@ -1,5 +1,7 @@
 #include "libindet/range/result_fields.h"
 
+#include <cmath>
+
 namespace indet {
 
 const char* to_string(Extent extent) {
@@ -54,8 +56,8 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.draws > 0;
     case Presence::kPaper:
       return ranges.method == Method::kPivotingPaper;
-    case Presence::kBarrier:
-      return ranges.method == Method::kBarrier;
+    case Presence::kInterval:
+      return !std::isnan(ranges.gap);
     case Presence::kReason:
       return !ranges.reason.empty();
     case Presence::kRandom:

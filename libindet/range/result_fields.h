@@ -39,7 +39,7 @@ enum class Presence : std::uint8_t {
   kSample,    ///< where a sample of contacts was
   kDrawn,     ///< where that was drawn with unequal probabilities
   kPaper,     ///< where the method is kPivotingPaper
-  kBarrier,   ///< where the method is kBarrier
+  kInterval,  ///< where values are known to intervals of an asked-for width
   kReason,    ///< where the method was chosen by the program
   kRandom,    ///< where that goes to a neighbour by chance
   kWhereRows  ///< where the table has rows
@@ -308,7 +308,7 @@ void visit_work(Part& r, Visit& visit) {
   attribute("method", "how the extremal states were found", Presence::kAlways, r.method);
   attribute("reason", "why this method was taken, where it was not asked for", Presence::kReason, r.reason);
   const auto of_intervals = [&](const char* name, const char* meaning, FieldSource source, auto& value) {
-    visit(Field{"/equilibrium", name, "1", meaning, source, Extent::kOne, Extent::kOne, Presence::kBarrier},
+    visit(Field{"/equilibrium", name, "1", meaning, source, Extent::kOne, Extent::kOne, Presence::kInterval},
           value);
   };
   of_intervals("gap", "largest width of an enclosed value, relative to max(1 mg, |value|)",

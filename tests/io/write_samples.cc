@@ -60,6 +60,9 @@ int main(int argc, char** argv) {
     rare.states_of = indet::StateChoice::Contacts::kList;
     rare.state_contacts = Eigen::Array2i(1, 4);
     rare.sample_seed = 12;
+    rare.reason = "a reason";
+    rare.gap = 1e-6;
+    rare.enclosed = 3;
     rare.draws = 4;
     rare.weight.setLinSpaced(5, 3, 7);
     rare.drawn.setZero(5);

@@ -77,7 +77,7 @@ void expect_states_fit(const ForceRanges& ranges) {
 TEST(KeptStates, ValuesStandWithoutThem) {
   int number = 0;
   for (const Packing& packing : packings()) {
-    for (const Method method : kMethods) {
+    for (const Method method : kVertexMethods) {
       SCOPED_TRACE(std::to_string(number++) + " " + to_string(method));
       const ForceRanges none = analyze_keeping(packing, {.kind = Kind::kNone}, method);
       EXPECT_EQ(none.state_kind, Kind::kNone);
@@ -109,7 +109,7 @@ TEST(KeptStates, OfSomeContactsAreThoseOfAll) {
   int number = 0;
   for (const Packing& packing : packings()) {
     if (packing.contact_count() < 2) continue;
-    for (const Method method : kMethods) {
+    for (const Method method : kVertexMethods) {
       SCOPED_TRACE(std::to_string(number++) + " " + to_string(method));
       for (const Kind kind : {Kind::kSolver, Kind::kCanonical}) {
         const ForceRanges all = analyze_keeping(packing, {.kind = kind}, method);
