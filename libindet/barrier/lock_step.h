@@ -16,8 +16,10 @@ namespace indet::barrier {
 using Objective = std::vector<std::pair<int, double>>;
 
 struct LockStepOptions {
-  double gap = 1e-6;  ///< stop when c·x − b·y is below this, relative to max(least, |c·x|)
-  double least = 1;   ///< in the unit of the problem
+  /// Stop when Σ x_k s_k, which is c·x − b·y where the constraints hold, is below this, relative to
+  /// max(least, |c·x|).
+  double gap = 1e-6;
+  double least = 1;  ///< in the unit of the problem
   int most_iterations = 100;
   /// Of the way to the nearest bound that a step goes at most, and of μ that it aims at at least. A shorter
   /// way and a higher aim take more iterations, but keep A x = b better where the optimum is degenerate.
