@@ -311,7 +311,10 @@ int run(const AnalyzeCommand& options, const Context& context) {
   if (options.method != "auto") analysis.method = value_of(options.method, kMethods);
   if (options.gap && analysis.method.value_or(Method::kBarrier) != Method::kBarrier)
     throw UsageError("--gap has no effect without --method barrier, whose intervals it is about");
-  if (options.gap) analysis.gap = *options.gap;
+  if (options.gap) {
+    analysis.gap = *options.gap;
+    analysis.method = Method::kBarrier;  // intervals are wanted
+  }
   if (analysis.method == Method::kBarrier &&
       (options.arguments.states == "canonical" || options.arguments.states == "solver" ||
        options.arguments.states_of != "all"))
@@ -370,7 +373,7 @@ Command add_analyze(CLI::App& root) {
       ->add_option(
           "--gap", options->gap,
           "barrier: how wide the interval of a value may be, relative to the value, or to 1 mg where that is "
-          "larger (default: 1e-6)")
+          "larger (default: 1e-6). With --method auto it asks for barrier")
       ->check(CLI::Range(1e-12, 0.5));
   add_condition_option(*command, options->conditions);
   add_analysis_options(*command, options->arguments, Levels::kWithExact);

@@ -3,11 +3,11 @@
 
     bench/large/synthetic_pile.py DISKS FOLDER [--seed S] [--mu 0.3]
 
-Rows of disks, each between two of the row below and displaced a little; the lowest row is
-glued, and walls stand at both sides, so that every disk has two contacts below and all equations are independent. M is about 2 N (1.7 N in packings that molecular
-dynamics makes). The forces are drawn, R from an exponential law that grows with the depth, T within the cone, and the loads of
-the disks are what balances them. Forces cannot grow without limit: a disk has contacts below and above alone, and those of
-the top row have none above.
+Rows of disks, each between two of the row below and displaced a little. The lowest row is glued, and walls stand at both
+sides, so that every disk has two contacts below and all equations are independent. M is about 2 N (1.7 N in packings that
+molecular dynamics makes). The forces are drawn, R from an exponential law that grows with the depth, T within the cone, and
+the loads of the disks are what balances them. Forces cannot grow without limit, for small friction: a disk has contacts
+below, above and at a wall alone, and those of the top row have none above.
 """
 import argparse
 from pathlib import Path

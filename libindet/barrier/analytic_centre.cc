@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libindet/base/constants.h"
+#include "libindet/barrier/vectors.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet::barrier {
 namespace {
-
-double largest(const std::vector<double>& values) {
-  double result = 0;
-  for (const double value : values)
-    result = std::isnan(value) ? kInfinity : std::max(result, std::abs(value));
-  return result;
-}
 
 /// The iteration for x, y and s = −Aᵀ y (here y is minus that of the header, so that s > 0), towards x s = 1.
 class CentreSearch {
@@ -32,7 +25,7 @@ class CentreSearch {
     AnalyticCentre centre;
     for (; centre.iterations < kMostIterations; ++centre.iterations) {
       find_residuals();
-      if (!std::isfinite(largest(primal_)) || largest(x_) > tolerance::kFarthestCentre) break;
+      if (!std::isfinite(largest_entry(primal_)) || largest_entry(x_) > tolerance::kFarthestCentre) break;
       if (is_centred()) {
         centre.found = true;
         break;
@@ -58,7 +51,7 @@ class CentreSearch {
   }
 
   bool is_centred() const {
-    if (largest(primal_) > tolerance::kCentreBalance * std::max(1.0, largest(x_))) return false;
+    if (largest_entry(primal_) > tolerance::kCentreBalance * std::max(1.0, largest_entry(x_))) return false;
     for (std::size_t k = 0; k < n_; ++k) {
       if (std::abs(dual_[k]) * x_[k] > tolerance::kCentring ||
           std::abs(x_[k] * s_[k] - 1) > tolerance::kCentring)

@@ -21,9 +21,9 @@ struct LockStepOptions {
   double gap = 1e-6;
   double least = 1;  ///< in the unit of the problem
   int most_iterations = 100;
-  /// Of the way to the nearest bound that a step goes at most, and of μ that it aims at at least. A shorter
-  /// way and a higher aim take more iterations, but keep A x = b better where the optimum is degenerate.
-  double longest_step = 0.9995, least_aim = 1e-8;
+  /// Of μ that a step aims at at least. A higher aim takes more iterations, but keeps A x = b better where
+  /// the optimum is degenerate.
+  double least_aim = 1e-8;
   int vector_bits = 512;  ///< the widest registers to use, if the processor has them: 512, 256 or 128
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libindet/barrier/stored_entries.h"
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
 
@@ -32,23 +33,6 @@ std::vector<double> magnitude_product(const BlockStructure& s, std::span<const d
   return result;
 }
 
-/// Calls visit(column, place, entry) for every entry of A, zeros of blocks too.
-template <class Visit>
-void for_each_entry(const BlockStructure& s, Visit visit) {
-  for (const BlockStructure::Group& group : s.groups()) {
-    for (int e = 0; e < group.columns; ++e) {
-      for (int t = group.first_touch; t < group.end_touch; ++t) {
-        const BlockStructure::Touch& touch = s.touches()[static_cast<std::size_t>(t)];
-        for (int r = 0; r < touch.rows; ++r) {
-          visit(static_cast<std::size_t>(group.first_column + e),
-                static_cast<std::size_t>(touch.first_row + r),
-                s.coefficients()[static_cast<std::size_t>(touch.coefficients + e * touch.rows + r)]);
-        }
-      }
-    }
-  }
-}
-
 double norm(std::span<const double> values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
@@ -63,16 +47,8 @@ VerifiedEquations::VerifiedEquations(const EquilibriumProblem& problem, const Bl
       centre_(centre),
       widen_(kWiden + 4 * kRoundoff * static_cast<double>(structure.rows() + structure.columns())),
       cholesky_(structure) {
-  // A disk that touches an image of itself has the torques of both ends in one entry.
-  const bool has_sums = std::any_of(problem.contacts.begin(), problem.contacts.end(),
-                                    [](const ContactEnds& ends) { return ends.a >= 0 && ends.a == ends.b; });
-  for (const int row : structure.equation_of_place()) {
-    const EquilibriumRow& equation = problem.rows[static_cast<std::size_t>(row)];
-    // Entries are stored doubles or rounded a few times; those of stress are f·l/L with |f| ≤ √2, |l|/L ≤
-    // 3/2, levers up to two radii.
-    entry_error_.push_back((equation.body.is_cell() || has_sums ? 24 : 8) * kRoundoff);
-    load_error_.push_back(6 * kRoundoff * equation.load / equation.unit + kTiny);
-  }
+  entry_error_ = entry_rounding(problem, structure);
+  load_error_ = load_rounding(problem, structure);
   row_terms_.assign(entry_error_.size(), 0);
   for_each_entry(structure, [&](std::size_t, std::size_t place, double) { row_terms_[place] += 1; });
   for (const double x : centre.x) squares_.push_back(x * x);

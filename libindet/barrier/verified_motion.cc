@@ -5,47 +5,21 @@
 #include <vector>
 
 #include "libindet/barrier/block_cholesky.h"
+#include "libindet/barrier/stored_entries.h"
 #include "libindet/base/rounding_bounds.h"
 
 namespace indet::barrier {
-namespace {
-
-/// Of an entry of A in the row of this equation: stored doubles, or rounded a few times; those of stress are
-/// f·l/L with |f| ≤ √2, |l|/L ≤ 3/2.
-double rounding_of_entry(const EquilibriumRow& equation) {
-  return (equation.body.is_cell() ? 24 : 8) * kRoundoff;
-}
-
-/// Calls visit(column, place, entry) for every entry of A, zeros of blocks too.
-template <class Visit>
-void visit_entries(const BlockStructure& s, Visit visit) {
-  for (const BlockStructure::Group& group : s.groups()) {
-    for (int e = 0; e < group.columns; ++e) {
-      for (int t = group.first_touch; t < group.end_touch; ++t) {
-        const BlockStructure::Touch& touch = s.touches()[static_cast<std::size_t>(t)];
-        for (int r = 0; r < touch.rows; ++r) {
-          visit(static_cast<std::size_t>(group.first_column + e),
-                static_cast<std::size_t>(touch.first_row + r),
-                s.coefficients()[static_cast<std::size_t>(touch.coefficients + e * touch.rows + r)]);
-        }
-      }
-    }
-  }
-}
-
-}  // namespace
 
 bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& structure,
                       std::span<const double> y) {
-  const auto equation = [&](std::size_t place) -> const EquilibriumRow& {
-    return problem.rows[static_cast<std::size_t>(structure.equation_of_place()[place])];
-  };
+  const std::vector<double> entry_error = entry_rounding(problem, structure);
+  const std::vector<double> load_error = load_rounding(problem, structure);
   const auto n = static_cast<std::size_t>(structure.columns());
   std::vector<double> power(n, 0), magnitude(n, 0), rounded(n, 0), terms(n, 2);
-  visit_entries(structure, [&](std::size_t column, std::size_t place, double entry) {
+  for_each_entry(structure, [&](std::size_t column, std::size_t place, double entry) {
     power[column] += entry * y[place];
     magnitude[column] += std::abs(entry * y[place]);
-    rounded[column] += rounding_of_entry(equation(place)) * std::abs(y[place]);
+    rounded[column] += entry_error[place] * std::abs(y[place]);
     terms[column] += 1;
   });
   for (std::size_t k = 0; k < n; ++k) {
@@ -54,8 +28,7 @@ bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& s
   }
   const Dot work = accurate_dot(y, structure.load());
   double error = work.error;
-  for (std::size_t i = 0; i < y.size(); ++i)
-    error += std::abs(y[i]) * (6 * kRoundoff * equation(i).load / equation(i).unit + kTiny);
+  for (std::size_t i = 0; i < y.size(); ++i) error += std::abs(y[i]) * load_error[i];
   return work.value < -kWiden * kWiden * error;
 }
 

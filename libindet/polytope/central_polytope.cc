@@ -27,6 +27,8 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
   SparseDecision decision = decide_sparsely(packing);
   if (!decision.decided || decision.rank_ambiguous || decision.proof == SparseDecision::Proof::kNone)
     return {};
+  // The rank of what is left where edges are closed was decided on the way, and is not kept.
+  if (!decision.steps.empty()) polytope.null_space.reset();
   polytope.problem = std::move(decision.problem);
   polytope.status = decision.status;
   polytope.dim = decision.dim;
@@ -42,6 +44,13 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
 }
 
 }  // namespace
+
+CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows)
+    : structure(problem, rows) {
+  barrier::BlockCholesky cholesky(structure);
+  centre = barrier::find_analytic_centre(structure, cholesky);
+  if (centre.found) equations.emplace(problem, structure, centre);
+}
 
 std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing) {
   ForcePolytope polytope;

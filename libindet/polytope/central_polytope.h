@@ -17,12 +17,7 @@ namespace indet {
 /// it proves: all that the barrier method works on. No matrix in it is dense.
 struct CentralPolytope {
   /// `rows`: independent equations of the problem that the others follow from.
-  CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows)
-      : structure(problem, rows),
-        cholesky(structure),
-        centre(barrier::find_analytic_centre(structure, cholesky)) {
-    if (centre.found) equations.emplace(problem, structure, centre);
-  }
+  CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows);
   CentralPolytope(const CentralPolytope&) = delete;
   CentralPolytope& operator=(const CentralPolytope&) = delete;
 
@@ -31,7 +26,6 @@ struct CentralPolytope {
   bool is_proven() const { return equations && equations->is_proven(); }
 
   barrier::BlockStructure structure;
-  barrier::BlockCholesky cholesky;  ///< for whoever needs a factor; left over from the search
   barrier::AnalyticCentre centre;
   std::optional<barrier::VerifiedEquations> equations;
 };

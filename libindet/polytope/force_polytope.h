@@ -47,7 +47,8 @@ struct ForcePolytope {
   PolytopeStatus status = PolytopeStatus::kEmpty;
   EquilibriumProblem natural;  ///< the problem with every contact as the scene has it
   EquilibriumProblem problem;  ///< the problem with closed edges removed
-  /// Of both; the same where no edge is closed. Without kernel and particular solution where the polytope was
+  /// Of both; the same where no edge is closed. Without kernel and particular solution, and of a problem
+  /// with closed edges none, where the polytope was
   /// found by the barrier method.
   std::shared_ptr<const NullSpace> natural_null_space, null_space;
   /// The problem over the rational numbers, with every contact as the scene has it; where it was needed.

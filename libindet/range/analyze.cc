@@ -93,6 +93,9 @@ ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& option
   if (choice.method != Method::kBarrier) return find_force_polytope(packing, options.lp);
   std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
   const bool is_large = 2 * packing.contact_count() > tolerance::kMostForDense;
+  if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded)
+    choice.reason =
+        "forces are unbounded, for which this method has no values, and the packing is too large for lp";
   if (sparse && (is_large || sparse->central || sparse->status == PolytopeStatus::kEmpty))
     return std::move(*sparse);
   if (!sparse && is_large)

@@ -5,6 +5,7 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
+#include "libindet/range/functional.h"
 
 namespace indet {
 namespace {
@@ -101,14 +102,8 @@ class BarrierSearch {
     for (const int i : contacts_) {
       for (int column = 0; column < 4; ++column) {
         result_.extrema.claim(i, column) = Outcome::kEnclosed;
-        barrier::Objective objective;
-        const int begin = first[static_cast<std::size_t>(i)];
-        for (int k = begin; k >= 0 && k < problem_.unknowns(); ++k) {
-          const Edge& edge = problem_.edge(k);
-          if (edge.is_slack() || edge.contact.value() != i) break;
-          objective.emplace_back(k, column >= kMinT ? edge.T : edge.R);
-        }
-        add({false, i, column, column == kMaxR || column == kMaxT ? -1.0 : 1.0}, std::move(objective));
+        add({false, i, column, column == kMaxR || column == kMaxT ? -1.0 : 1.0},
+            force_component(problem_, first, i, column >= kMinT, 1).on_edges);
       }
     }
   }
@@ -118,13 +113,7 @@ class BarrierSearch {
       const ReactionSum& sum = sums_[k];
       const auto row = static_cast<Eigen::Index>(k);
       describe(k);
-      barrier::Objective objective;
-      for (int column = 0; column < problem_.unknowns(); ++column) {
-        const Edge& edge = problem_.edge(column);
-        if (edge.is_slack()) continue;
-        const Eigen::Index at = 2 * static_cast<Eigen::Index>(edge.contact.value());
-        objective.emplace_back(column, sum.coefficients[at] * edge.R + sum.coefficients[at + 1] * edge.T);
-      }
+      const barrier::Objective objective = sum_of_forces(problem_, sum.coefficients).on_edges;
       for (const int end : {0, 1}) add({true, row, end, end == 0 ? 1.0 : -1.0}, objective);
     }
   }

@@ -36,6 +36,8 @@ class IntervalSearch {
       std::erase_if(wanted, [&](std::size_t k) { return is_narrow(intervals_[k]); });
       settled_ -= static_cast<std::int64_t>(wanted.size());
     }
+    const auto total = static_cast<std::int64_t>(objectives_.size());
+    if (options_.progress && !options_.progress(total, total)) throw Interrupted();
     return std::move(intervals_);
   }
 

@@ -94,6 +94,10 @@ class Barrier(program.ProgramTest):
         reason = self.open("a.h5")["provenance/work"].attrs["reason"]
         self.assertIn("small", reason)
 
+    def test_a_gap_asks_for_intervals(self):
+        found = json.loads(self.run_indet("--json", "analyze", "p.h5", "-o", "g.h5", "--gap", "1e-3").stdout)
+        self.assertEqual(found["method"], "barrier")
+
     def test_a_sample_of_contacts(self):
         self.analyze("b.h5", "--method", "barrier", "--contacts", "3,5-7")
         outcome = self.open("b.h5")["ranges/outcome"][()]

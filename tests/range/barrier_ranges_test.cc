@@ -122,6 +122,7 @@ TEST(BarrierRanges, AreAsNarrowAsAskedFor) {
 TEST(BarrierRanges, DoNotDependOnTheNumberOfThreads) {
   const Packing packing = bounded_pile();
   const ForceRanges one = ranges_by(Method::kBarrier, packing);
+  ASSERT_EQ(one.method, Method::kBarrier);
   for (const int threads : {2, 3}) {
     const ForceRanges several = ranges_by(Method::kBarrier, packing, 1e-6, threads);
     EXPECT_TRUE((one.lower == several.lower).all());
