@@ -18,6 +18,7 @@ struct AnalysisArguments {
   std::string accuracy = "standard";
   std::string contacts = "all";
   std::uint64_t seed = 1;
+  std::optional<int> calibrate;  ///< of --accuracy estimate
   std::string formulation = "auto";
   std::string states = "auto";
   std::string states_of = "all";
@@ -25,13 +26,16 @@ struct AnalysisArguments {
 };
 
 /// Which levels of --accuracy a subcommand offers.
-enum class Levels : std::uint8_t { kFloatingPoint, kWithExact };
+enum class Levels : std::uint8_t { kFloatingPoint, kAll };
 
 /// `arguments` must outlive the command.
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Levels levels);
 
 /// True if every result is to be proven in rational arithmetic after the analysis.
 bool is_exact(const AnalysisArguments& arguments);
+
+/// True if ranges are to be estimated instead of found.
+bool is_estimate(const AnalysisArguments& arguments);
 
 /// Throws UsageError if options say how to walk, where nothing does: the method is not pivoting-paper.
 void require_no_walk(const AnalysisArguments& arguments);

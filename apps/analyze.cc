@@ -16,6 +16,8 @@
 #include "apps/command.h"
 #include "apps/condition.h"
 #include "apps/contradiction.h"
+#include "apps/estimate_arguments.h"
+#include "apps/estimate_report.h"
 #include "apps/exact_analysis.h"
 #include "apps/kept_states.h"
 #include "apps/output_files.h"
@@ -152,6 +154,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                {"mean_d_T", json_number(d_T.mean)},
                {"max_d_T", json_number(d_T.max)},
                {"seconds", ranges.seconds}});
+  if (ranges.calibration >= 0) json["estimates"] = estimates_to_json(ranges);
   if (ranges.choice == ContactChoice::Kind::kSample) json["sample"] = sample_to_json(ranges);
   if (ranges.reactions.count() > 0) json["reactions"] = reactions_to_json(packing, ranges.reactions);
   if (ranges.method == Method::kPivotingPaper) json["paper"] = describe_paper_work(ranges);
@@ -221,6 +224,8 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
 
 /// How many extrema were found, and how firmly they stand.
 void print_quality(const ForceRanges& ranges) {
+  const bool has_estimates = ranges.calibration >= 0;
+  if (has_estimates && ranges.objectives == 0) return;
   fmt::print("{}: {} certified{}, {} imprecise, {} failed\n",
              counted(ranges.objectives, "extremum", "extrema"), ranges.certified,
              ranges.unbounded > 0 ? fmt::format(" ({} of them unbounded)", ranges.unbounded) : "",
@@ -247,6 +252,7 @@ void print_quality(const ForceRanges& ranges) {
   const int unique = ranges.unique.cast<int>().sum();
   const bool had_choice = !ranges.reason.empty() && ranges.state_kind == StateChoice::Kind::kNone;
   if (had_choice) fmt::print("method {}: {}\n", to_string(ranges.method), ranges.reason);
+  if (has_estimates) return fmt::print("found by {}\n", describe_method(ranges));
   fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
              counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
   fmt::print("{}\n", describe_kept_states(ranges));
@@ -277,7 +283,7 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
              describe_expected_dimension(packing), blocks);
   if (ranges.sliding >= 0)
     fmt::print("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
-  if (ranges.choice != ContactChoice::Kind::kAll)
+  if (ranges.choice == ContactChoice::Kind::kSample || ranges.choice == ContactChoice::Kind::kList)
     fmt::print("asked for: {} of {}\n", ranges.requested, counted(packing.contact_count(), "contact"));
   print_quality(ranges);
   if (ranges.method == Method::kPivotingPaper) print_paper_work(ranges.paper);
@@ -285,7 +291,9 @@ void print_summary(const Packing& packing, const ForceRanges& ranges, const std:
     const Statistics s = statistics(values);
     fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
   };
-  if (packing.contact_count() > 0) {
+  if (ranges.calibration >= 0) {
+    print_estimates(packing, ranges);
+  } else if (packing.contact_count() > 0) {
     fmt::print("\nindeterminacy{} (mg)\n", ranges.draws > 0 ? " of the contacts that were drawn" : "");
     line("δR", ranges.delta_R);
     line("δT", ranges.delta_T);
@@ -309,6 +317,7 @@ int run(const AnalyzeCommand& options, const Context& context) {
   claim_output(output, FileKind::kRanges, replacement_rule({options.packing}, options.overwrite, context));
   AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
   if (options.method != "auto") analysis.method = value_of(options.method, kMethods);
+  if (analysis.estimate) resolve_calibration(options.method, options.gap, analysis);
   if (options.gap && analysis.method.value_or(Method::kBarrier) != Method::kBarrier)
     throw UsageError("--gap has no effect without --method barrier, whose intervals it is about");
   if (options.gap) {
@@ -376,7 +385,7 @@ Command add_analyze(CLI::App& root) {
           "larger (default: 1e-6). With --method auto it asks for barrier")
       ->check(CLI::Range(1e-12, 0.5));
   add_condition_option(*command, options->conditions);
-  add_analysis_options(*command, options->arguments, Levels::kWithExact);
+  add_analysis_options(*command, options->arguments, Levels::kAll);
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/estimate_report.h"
 #include "apps/kept_states.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
@@ -190,8 +191,9 @@ int run(ExportOptions options, const Context& context) {
     write_numbers(output, format, packing, state, ranges ? &*ranges : nullptr, context);
   } else if (options.style == "delta-R") {
     const ForceRanges& r = need_ranges(ranges, options.file, "--style delta-R");
-    draw_delta_R(output, packing, r.delta_R,
-                 caption(options, packing, "range of the normal force of each contact"));
+    const std::string range = "range of the normal force of each contact";
+    draw_delta_R(output, packing, r.delta_R, r.estimated_R.estimate,
+                 caption(options, packing, r.calibration < 0 ? range : range + ", " + describe_estimates(r)));
   } else {
     draw_forces(output, packing, state.forces, caption(options, packing, state.description));
   }

@@ -17,6 +17,7 @@
 #include "apps/command.h"
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/estimate_report.h"
 #include "apps/file_contents.h"
 #include "apps/kept_states.h"
 #include "apps/packing_input.h"
@@ -120,6 +121,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                            {"max_delta_R", json_number(largest(r.delta_R))},
                            {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
                            {"max_delta_T", json_number(largest(r.delta_T))}});
+    if (r.calibration >= 0) json["ranges"]["estimates"] = estimates_to_json(r);
     if (r.reactions.count() > 0) json["ranges"]["reactions"] = reactions_to_json(packing, r.reactions);
     if (r.method == Method::kPivotingPaper) json["ranges"]["paper"] = describe_paper_work(r);
   }
@@ -255,6 +257,17 @@ void print_reactions(const Packing& packing, const ForceRanges& ranges) {
   if (r.count() > kShown) print_line("", fmt::format("… and {} more sums", r.count() - kShown));
 }
 
+std::string describe_choice(const ForceRanges& r) {
+  switch (r.choice) {
+    case ContactChoice::Kind::kSample:
+      return fmt::format("a sample, seed {}", r.sample_seed);
+    case ContactChoice::Kind::kCalibration:
+      return "for the calibration of estimates";
+    default:
+      return "a list";
+  }
+}
+
 void print_ranges(const ForceRanges& r) {
   const auto measure = [](const Eigen::VectorXd& values) {
     const auto infinite = std::count_if(values.begin(), values.end(), [](double v) { return std::isinf(v); });
@@ -265,10 +278,8 @@ void print_ranges(const ForceRanges& r) {
              fmt::format("{} unknown forces, {} equations, rank {}{}, nullity {}, dimension {}", r.unknowns,
                          r.equations, r.rank, r.rank_ambiguous ? " (ambiguous)" : "", r.nullity, r.dim));
   if (r.choice != ContactChoice::Kind::kAll) {
-    print_line("  asked for", fmt::format("{} of {} contacts ({})", r.requested, r.outcome.rows(),
-                                          r.choice == ContactChoice::Kind::kSample
-                                              ? fmt::format("a sample, seed {}", r.sample_seed)
-                                              : "a list"));
+    print_line("  asked for",
+               fmt::format("{} of {} contacts ({})", r.requested, r.outcome.rows(), describe_choice(r)));
   }
   print_line("  extrema",
              fmt::format("{}: {} certified{}, {} imprecise, {} failed", r.objectives, r.certified,
@@ -278,6 +289,10 @@ void print_ranges(const ForceRanges& r) {
                                         r.worst_primal_residual, r.worst_dual_residual));
   print_line("  δR (mg)", measure(r.delta_R));
   print_line("  δT (mg)", measure(r.delta_T));
+  if (r.calibration >= 0) {
+    print_line("  δR, estimated", measure(r.estimated_R.estimate));
+    print_line("  δT, estimated", measure(r.estimated_T.estimate));
+  }
   if (r.states.rows() > 0) {
     print_line("  dR (mg)", measure(r.d_R));
     print_line("  dT (mg)", measure(r.d_T));

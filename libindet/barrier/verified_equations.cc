@@ -281,4 +281,24 @@ ValueBounds VerifiedEquations::enclose(const Objective& objective, std::span<con
   return {lower_bound(objective, y), upper_bound(objective, x)};
 }
 
+std::vector<double> VerifiedEquations::nearest_multipliers(const Objective& objective) const {
+  std::vector<double> x(squares_.size(), 0);
+  for (const auto& [column, weight] : objective) {
+    const auto k = static_cast<std::size_t>(column);
+    x[k] += squares_[k] * weight;
+  }
+  std::vector<double> y = product(structure_, x);
+  cholesky_.solve(y);
+  return y;
+}
+
+ValueBounds VerifiedEquations::enclose_everywhere(const Objective& objective,
+                                                  std::span<const double> y) const {
+  Objective opposite = objective;
+  for (auto& [column, weight] : opposite) weight = -weight;
+  std::vector<double> minus(y.begin(), y.end());
+  for (double& entry : minus) entry = -entry;
+  return {lower_bound(objective, y), -lower_bound(opposite, minus)};
+}
+
 }  // namespace indet::barrier

@@ -55,6 +55,12 @@ class VerifiedEquations {
   std::vector<double> repaired(std::span<const double> x) const;
   /// Bounds of the least value of the objective. `x`: repaired. They hold whatever x and y are.
   ValueBounds enclose(const Objective& objective, std::span<const double> x, std::span<const double> y) const;
+  /// Multipliers y that make ‖X (c − Aᵀ y)‖₂ least, from one solution: (A X² Aᵀ) y = A X² cᵀ.
+  std::vector<double> nearest_multipliers(const Objective& objective) const;
+  /// Bounds of c·x over the whole set, which hold whatever y is: duality for c with y and for −c with −y.
+  /// Where c is a combination of rows of A, and so c·x the same everywhere, the nearest y leave but rounding
+  /// between them.
+  ValueBounds enclose_everywhere(const Objective& objective, std::span<const double> y) const;
 
  private:
   void bound_singular_value();

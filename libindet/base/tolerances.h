@@ -311,6 +311,14 @@ inline constexpr double kHullClear = 1e-9;
 /// A force that moves at most this far along every unit direction within F is determined.
 inline constexpr double kDeterminedForce = 1e-9;
 
+/// A force is determined if its width is up to this, relative to the normal force at the analytic centre: the
+/// square of a width is a difference, and rounds to some 1e-16 of the square of the force. Workable: 1e-7 …
+/// 1e-5; the smallest widths of forces that can vary are 1e-4 in piles of 1e4 disks.
+inline constexpr double kDeterminedWidth = 1e-6;
+
+/// How wide the proven interval of such a force may be, relative to max(1 mg, |force|).
+inline constexpr double kDeterminedInterval = 1e-6;
+
 /// The analytic centre and the widths that contacts are drawn by: imbalance and widths relative to the
 /// largest force, and the distance to the centre over its ellipsoid.
 inline constexpr double kDrawCentre = 1e-6;

@@ -149,7 +149,15 @@ void draw_forces(const std::filesystem::path& path, const Packing& packing,
 }
 
 void draw_delta_R(const std::filesystem::path& path, const Packing& packing,
-                  const Eigen::Ref<const Eigen::VectorXd>& delta_R, const std::string& caption) {
+                  const Eigen::Ref<const Eigen::VectorXd>& known,
+                  const Eigen::Ref<const Eigen::VectorXd>& estimate, const std::string& caption) {
+  const auto is_estimate = [&](Eigen::Index i) { return estimate.size() > 0 && !std::isnan(estimate[i]); };
+  Eigen::VectorXd delta_R = known;
+  bool estimated = false;
+  for (Eigen::Index i = 0; i < delta_R.size(); ++i) {
+    if (is_estimate(i)) delta_R[i] = estimate[i];
+    estimated = estimated || is_estimate(i);
+  }
   double largest = 0;
   bool unbounded = false;
   bool missing = false;
@@ -166,6 +174,7 @@ void draw_delta_R(const std::filesystem::path& path, const Packing& packing,
       };
     };
     if (unbounded) items.push_back({22, sample(palette::kUnbounded, 2, true), "unbounded"});
+    if (estimated) items.push_back({22, sample(palette::kBlack, 1, false), "thin: estimate"});
     if (missing) items.push_back({22, sample(palette::kUnknown, 0.6, false), "no value"});
     return items;
   };
@@ -186,7 +195,8 @@ void draw_delta_R(const std::filesystem::path& path, const Packing& packing,
         sheet.canvas().line(line.from, line.to, thickness, palette::kUnbounded, true, false);
       } else {
         const double fraction = largest > 0 ? delta_R[i] / largest : 0;
-        sheet.canvas().line(line.from, line.to, thickness, map_colour(fraction), false, round);
+        const double share = is_estimate(i) ? 0.5 : 1;
+        sheet.canvas().line(line.from, line.to, share * thickness, map_colour(fraction), false, round);
       }
     }
   }

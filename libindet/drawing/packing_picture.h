@@ -16,7 +16,8 @@ namespace indet {
 ///             direction of the force on that disk. T > 0 turns both disks counter-clockwise (the torque on
 ///             each is +rT); both signs also differ in colour. (Fig. 5 of McNamara and Herrmann.)
 ///   delta_R   Lines of one thickness, coloured by δR [23] with a colour bar in the unit of force. Unbounded
-///             ones are dashed red; those without a value are thin and grey.
+///             ones are dashed red; those without a value are thin and grey. Where δR is an estimate the line
+///             has the colour of the estimate and half of the thickness.
 ///
 /// A legend gives the scales; the caption stands below.
 
@@ -24,8 +25,10 @@ namespace indet {
 void draw_forces(const std::filesystem::path& path, const Packing& packing,
                  const Eigen::Ref<const Eigen::VectorXd>& forces, const std::string& caption);
 
-/// Draws `delta_R` (M, dimensionless; inf and NaN as above).
+/// Draws `delta_R` (M, dimensionless; inf and NaN as above). `estimate`: M, not NaN where δR is an estimate
+/// instead; or empty.
 void draw_delta_R(const std::filesystem::path& path, const Packing& packing,
-                  const Eigen::Ref<const Eigen::VectorXd>& delta_R, const std::string& caption);
+                  const Eigen::Ref<const Eigen::VectorXd>& delta_R,
+                  const Eigen::Ref<const Eigen::VectorXd>& estimate, const std::string& caption);
 
 }  // namespace indet

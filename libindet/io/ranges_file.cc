@@ -21,14 +21,15 @@ namespace indet {
 namespace {
 
 /// In the order of the values of Outcome.
-const EnumNames kOutcomes = {"optimal", "unbounded", "imprecise", "failed", "not_requested", "enclosed"};
-/// Those of files without enclosed values, which versions before these read.
-const EnumNames kFirstOutcomes(kOutcomes.begin(), kOutcomes.end() - 1);
+const EnumNames kOutcomes = {"optimal",       "unbounded", "imprecise", "failed",
+                             "not_requested", "enclosed",  "estimate"};
+/// Files name no more of them than they need, so that versions before the last ones read them.
+constexpr std::ptrdiff_t kFewestOutcomes = 5;
 
 constexpr std::array kStatuses = {PolytopeStatus::kBounded, PolytopeStatus::kUnbounded,
                                   PolytopeStatus::kPoint, PolytopeStatus::kEmpty};
 constexpr std::array kChoices = {ContactChoice::Kind::kAll, ContactChoice::Kind::kSample,
-                                 ContactChoice::Kind::kList};
+                                 ContactChoice::Kind::kList, ContactChoice::Kind::kCalibration};
 
 /// Attributes that are stored as text: all values of their type.
 constexpr const auto& values_of(Method) { return kMethods; }
@@ -71,10 +72,13 @@ class FieldWriter {
     const Label label = {field.unit, field.meaning};
     if constexpr (std::is_same_v<Number, Outcome>) {
       std::vector<std::uint8_t> numbers;
-      for (const Outcome outcome : values) numbers.push_back(static_cast<std::uint8_t>(outcome));
-      const bool has_last =
-          std::any_of(values.begin(), values.end(), [](Outcome o) { return o == Outcome::kEnclosed; });
-      file_.write_enum(path_of(field), numbers, shape, has_last ? kOutcomes : kFirstOutcomes, label);
+      std::ptrdiff_t named = kFewestOutcomes;
+      for (const Outcome outcome : values) {
+        numbers.push_back(static_cast<std::uint8_t>(outcome));
+        named = std::max<std::ptrdiff_t>(named, numbers.back() + 1);
+      }
+      const EnumNames names(kOutcomes.begin(), kOutcomes.begin() + named);
+      file_.write_enum(path_of(field), numbers, shape, names, label);
     } else {
       file_.write(path_of(field), values, shape, label);
     }
@@ -143,8 +147,9 @@ class FieldReader {
     const bool may_be_older =
         is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
-    const bool is_of_intervals = field.presence == Presence::kInterval;
-    if (may_lack || may_be_older || is_of_intervals) return file_.has_attribute(field.group, field.name);
+    const bool tells_itself = field.presence == Presence::kInterval ||
+                              field.presence == Presence::kEstimate || field.presence == Presence::kSeed;
+    if (may_lack || may_be_older || tells_itself) return file_.has_attribute(field.group, field.name);
     return is_present(field.presence, ranges_, 1);
   }
 
@@ -234,8 +239,21 @@ void check_draw(const Hdf5File& file, const ContactDraw& draw) {
       (draw.drawn < 0).any())
     refuse("/ranges/drawn");
   if ((draw.weight <= 0).any()) refuse("/ranges/draw_weight");
-  if (draw.centre.rows() != draw.weight.size()) refuse("/ranges/centre");
-  if (draw.width.rows() != draw.weight.size()) refuse("/ranges/width");
+  if (draw.draws > 0 && draw.centre.rows() != draw.weight.size()) refuse("/ranges/centre");
+  if (draw.width.rows() != draw.centre.rows()) refuse("/ranges/width");
+}
+
+/// Where δ is estimated, every table is there.
+void check_estimates(const Hdf5File& file, const ForceRanges& ranges) {
+  const Eigen::Index rows = ranges.calibration >= 0 ? ranges.value.rows() : 0;
+  bool is_whole = ranges.calibrates.size() == rows && (ranges.draws > 0 || ranges.centre.rows() == rows);
+  for (const DeltaEstimates* part : {&ranges.estimated_R, &ranges.estimated_T}) {
+    for (const Eigen::VectorXd* values : {&part->estimate, &part->low, &part->high})
+      is_whole = is_whole && values->size() == rows;
+  }
+  const bool is_said = ranges.choice == ContactChoice::Kind::kCalibration;
+  if (!is_whole || is_said != (ranges.calibration >= 0) || ranges.calibration < -1)
+    fail(file, "/ranges@calibration", "does not go with the estimates");
 }
 
 /// Numbers of contacts, and what they tell of a sample.
@@ -243,6 +261,7 @@ void check_request(const Hdf5File& file, const ForceRanges& ranges) {
   if (ranges.requested < 0 || ranges.requested > ranges.value.rows())
     fail(file, "/ranges@requested", fmt::format("{} of {} contacts", ranges.requested, ranges.value.rows()));
   check_draw(file, ranges);
+  check_estimates(file, ranges);
   if (ranges.choice != ContactChoice::Kind::kSample) return;
   if (file.double_attribute("/ranges", "confidence") != kConfidence)
     fail(file, "/ranges@confidence", fmt::format("is not {}", kConfidence));

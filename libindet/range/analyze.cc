@@ -16,6 +16,7 @@
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/barrier_ranges.h"
 #include "libindet/range/enclosure.h"
+#include "libindet/range/estimated_ranges.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/extremal_search.h"
 #include "libindet/range/reactions.h"
@@ -135,6 +136,21 @@ Wanted choose_contacts(const ContactChoice& choice, const ForcePolytope& polytop
   return wanted;
 }
 
+/// Says why there are no estimates of a polytope that is not empty.
+void require_centre(const ForcePolytope& polytope) {
+  if (polytope.doubtful)
+    throw InputError(
+        "rounding decides whether contact forces balance here, or stay bounded, and no range can be "
+        "estimated; "
+        "--accuracy standard finds what there is");
+  if (polytope.central) return;
+  const bool is_unbounded = polytope.status == PolytopeStatus::kUnbounded;
+  throw InputError(std::string(is_unbounded ? "some contact forces can grow without limit here"
+                                            : "the polytope of contact forces is too thin here") +
+                   ", and ranges are estimated from its analytic centre, which there is none of; --accuracy "
+                   "standard finds them");
+}
+
 }  // namespace
 
 MethodChoice choose_method(int contacts, bool wants_states) {
@@ -161,7 +177,16 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   MethodChoice choice = options.method
                             ? MethodChoice{*options.method, ""}
                             : choose_method(packing.contact_count(), kept.kind != StateChoice::Kind::kNone);
+  if (options.estimate) choice.method = Method::kBarrier;
   ForcePolytope polytope = find_polytope(packing, options, choice);
+  if (options.estimate && polytope.status != PolytopeStatus::kEmpty) {
+    require_centre(polytope);
+    stopwatch.mark("polytope");
+    ForceRanges ranges = estimate_ranges(packing, polytope, *options.estimate, interval_options(options));
+    stopwatch.mark("estimates");
+    ranges.seconds = std::move(seconds);
+    return ranges;
+  }
   const auto [contacts, request] = choose_contacts(options.contacts, polytope, packing.contact_count());
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");

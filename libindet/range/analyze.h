@@ -8,6 +8,7 @@
 #include "libindet/lp/lp_solver.h"
 #include "libindet/packing/packing.h"
 #include "libindet/range/contact_choice.h"
+#include "libindet/range/estimates.h"
 #include "libindet/range/force_ranges.h"
 #include "libindet/range/method.h"
 #include "libindet/range/paper_options.h"
@@ -29,6 +30,8 @@ struct AnalyzeOptions {
   PaperOptions paper;  ///< of kPivotingPaper
   LpOptions lp;
   ContactChoice contacts;
+  /// Estimates in place of ranges, by kBarrier, of all contacts: `contacts` and `states` do not matter.
+  std::optional<EstimateOptions> estimate;
   StateChoice states;          ///< which extremal states the result keeps
   bool solver_states = false;  ///< where it keeps all canonical ones: also tell where the solver landed
                                ///< (ForceRanges::solver_states)
@@ -41,7 +44,8 @@ AnalyzeOptions options_for(Accuracy accuracy);
 
 /// The ranges of all contact forces of a packing: from equilibrium problem to measures, each value with its
 /// residuals. Precondition: find_defect(packing) is empty. Throws InputError if the choice of states has a
-/// defect, Interrupted, LibraryError.
+/// defect, or if estimates are wanted of a polytope that has no analytic centre, because it is unbounded or
+/// too thin, or of one that rounding decides about; Interrupted, LibraryError.
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options = {});
 
 /// The method for a packing with this number of contacts, and why: kBarrier where no extremal states are

@@ -36,7 +36,7 @@ void certify_objective(const Extrema& extrema, double weight, Eigen::Index i, in
     if (outcome == Outcome::kImprecise || result.doubtful)  // it may be finite after all
       (is_maximum ? lower : upper) *= -1;
   }
-  const bool has_value = outcome != Outcome::kFailed && outcome != Outcome::kNotRequested;
+  const bool has_value = outcome != Outcome::kFailed && !is_left_out(outcome);
   if (has_value && result.doubtful) outcome = Outcome::kImprecise;
 }
 
@@ -56,9 +56,7 @@ Certified certify(const ProblemSummary& problem, const Extrema& extrema, const E
   result.worst_primal_residual = result.worst_dual_residual = 0;
   for (Eigen::Index i = 0; i < result.outcome.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
-      const bool is_left_out =
-          result.outcome(i, column) == Outcome::kNotRequested && problem.status != PolytopeStatus::kEmpty;
-      if (is_left_out) continue;
+      if (problem.status != PolytopeStatus::kEmpty && is_left_out(result.outcome(i, column))) continue;
       ++result.objectives;
       certify_objective(extrema, problem.force_unit, i, column, result);
       const Outcome outcome = result.outcome(i, column);

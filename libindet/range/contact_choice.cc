@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "libindet/base/random.h"
 
@@ -15,8 +16,19 @@ const char* to_string(ContactChoice::Kind kind) {
       return "sample";
     case ContactChoice::Kind::kList:
       return "list";
+    case ContactChoice::Kind::kCalibration:
+      return "calibration";
   }
   return "?";
+}
+
+std::vector<int> draw_without_replacement(std::vector<int> from, int size, std::uint64_t seed) {
+  const std::size_t count = std::min(static_cast<std::size_t>(size), from.size());
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) std::swap(from[i], from[i + random.below(from.size() - i)]);
+  from.resize(count);
+  std::sort(from.begin(), from.end());
+  return from;
 }
 
 std::vector<int> chosen_contacts(const ContactChoice& choice, int contacts) {
@@ -25,12 +37,8 @@ std::vector<int> chosen_contacts(const ContactChoice& choice, int contacts) {
     chosen.resize(static_cast<std::size_t>(contacts));
     std::iota(chosen.begin(), chosen.end(), 0);
   }
-  if (choice.kind == ContactChoice::Kind::kSample) {
-    const auto size = static_cast<std::size_t>(std::min(choice.sample_size, contacts));
-    Random random(choice.seed);
-    for (std::size_t i = 0; i < size; ++i) std::swap(chosen[i], chosen[i + random.below(chosen.size() - i)]);
-    chosen.resize(size);
-  }
+  if (choice.kind == ContactChoice::Kind::kSample)
+    chosen = draw_without_replacement(std::move(chosen), choice.sample_size, choice.seed);
   std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libindet/barrier/dikin_widths.h"
 #include "libindet/base/random.h"
-#include "libindet/polytope/central_polytope.h"
-#include "libindet/polytope/force_polytope.h"
 
 namespace indet {
 namespace {
@@ -43,25 +40,10 @@ std::vector<std::int32_t> draw_with_replacement(const std::vector<std::int32_t>&
 }
 
 ContactDraw draw_contacts(const ForcePolytope& polytope, int draws, std::uint64_t seed) {
-  const CentralPolytope& central = *polytope.central;
-  const EquilibriumProblem& problem = polytope.problem;
-  const auto count = static_cast<Eigen::Index>(problem.contacts.size());
-  barrier::BlockCholesky cholesky(central.structure);
-  const barrier::DikinWidths widths =
-      barrier::dikin_widths(problem, central.structure, central.centre, cholesky);
-  const std::vector<double>& x = central.centre.x;
-  const Eigen::Map<const Eigen::VectorXd> strengths(x.data(), static_cast<Eigen::Index>(x.size()));
-  const Eigen::VectorXd centre = problem.units.scene(problem.state(strengths)).value();
   ContactDraw draw;
+  static_cast<CentralWidths&>(draw) = central_widths(polytope);
+  const Eigen::Index count = draw.width.rows();
   draw.draws = draws;
-  draw.centre.resize(count, 2);
-  draw.width.resize(count, 2);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    draw.centre.row(i) << centre[2 * i], centre[2 * i + 1];
-    draw.width.row(i) << widths.R[at], widths.T[at];
-  }
-  draw.width *= problem.units.internal_in_scene();
   const std::vector<std::int32_t> weight = draw_weights(draw.width);
   const std::vector<std::int32_t> drawn = draw_with_replacement(weight, draws, seed);
   draw.weight = Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(weight.data(), count);

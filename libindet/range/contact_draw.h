@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace indet {
+#include "libindet/range/central_widths.h"
 
-struct ForcePolytope;
+namespace indet {
 
 /// Contacts drawn at random with unequal probabilities, for estimates of the mean of δR and of δT that need
 /// few of them: δ is roughly proportional to the width σ of the Dikin ellipsoid about the analytic centre
@@ -17,12 +17,10 @@ struct ForcePolytope;
 /// one draw after the other, with replacement. The same draw serves R and T. n is whole, and its sums and
 /// the draws are exact: the last digits of σ, which differ between machines, do not matter, unless one lies
 /// within them of the middle between two whole numbers. A width whose mean is 0 is left out of n.
-struct ContactDraw {
-  int draws = 0;  ///< K; 0: contacts were not drawn in this way, and the tables have no rows.
+struct ContactDraw : CentralWidths {
+  int draws = 0;  ///< K; 0: contacts were not drawn in this way, and the tables of it have no rows.
   Eigen::Array<std::int32_t, Eigen::Dynamic, 1> weight;  ///< [M], n_i.
   Eigen::Array<std::int32_t, Eigen::Dynamic, 1> drawn;   ///< [M], how often each contact was drawn.
-  /// [M, 2], R and T of the analytic centre and their widths σ, in the scene's unit of force.
-  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> centre, width;
 };
 
 /// n_i of widths [M, 2], both ≥ 0.

@@ -5,10 +5,9 @@ namespace indet {
 ForceRanges assemble(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,
                      const Extrema& extrema, const Enclosures& enclosures) {
   const Certified certified = certify(problem, extrema, enclosures);
-  return {problem,   request,
-          extrema,   extrema,
-          certified, measure(packing, problem, request, extrema, certified),
-          {},        extrema.solver_states};
+  return {problem, request,   extrema,
+          extrema, certified, measure(packing, problem, request, extrema, certified),
+          {},      {},        extrema.solver_states};
 }
 
 }  // namespace indet

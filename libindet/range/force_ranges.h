@@ -8,6 +8,7 @@
 #include "libindet/packing/packing.h"
 #include "libindet/range/certify.h"
 #include "libindet/range/contact_choice.h"
+#include "libindet/range/estimates.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/measures.h"
 #include "libindet/range/outcome.h"
@@ -18,13 +19,19 @@ namespace indet {
 
 /// The ranges of all contact forces of one packing: what the stages of an analysis return, put together. Each
 /// part says what its fields are; result_fields.h lists them with names, units and shapes. Contacts that were
-/// not asked for have NaN, −1 and kNotRequested in every table.
+/// not asked for have NaN, −1 and kNotRequested in every table, or, where δ is estimated, kEstimate.
 ///
 ///   ForcePolytope ─▶ ProblemSummary        ContactChoice ─▶ ContactRequest
-///   ForcePolytope ─▶ Extrema ─▶ Enclosures ─▶ Certified ─▶ Measures
+///   ForcePolytope ─▶ Extrema ─▶ Enclosures ─▶ Certified ─▶ Measures ─▶ Estimates
 ///
 /// Of Extrema the states and the work stay; its claims, its residuals and the enclosures are in Certified.
-struct ForceRanges : ProblemSummary, ContactRequest, ExtremalStates, SearchWork, Certified, Measures {
+struct ForceRanges : ProblemSummary,
+                     ContactRequest,
+                     ExtremalStates,
+                     SearchWork,
+                     Certified,
+                     Measures,
+                     Estimates {
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   std::map<std::string, double> seconds;  ///< By stage.

@@ -16,6 +16,8 @@ const char* to_string(Outcome outcome) {
       return "not requested";
     case Outcome::kEnclosed:
       return "enclosed";
+    case Outcome::kEstimate:
+      return "estimate";
   }
   return "?";
 }

@@ -12,7 +12,8 @@ enum class Outcome : std::uint8_t {
   kImprecise,     ///< A value is given, but its residuals or the rank decision leave it uncertain.
   kFailed,        ///< No value was found (NaN).
   kNotRequested,  ///< Left out by the user's choice of contacts (NaN), or there is no admissible state.
-  kEnclosed       ///< Certified: known to an interval that is no wider than asked for; no state attains it.
+  kEnclosed,      ///< Certified: known to an interval that is no wider than asked for; no state attains it.
+  kEstimate       ///< Not looked for (NaN): how far the force can vary is estimated (estimates.h).
 };
 
 /// The four objectives of a contact, in the order of the columns of every [M,4] table.
@@ -21,6 +22,11 @@ enum Column : std::uint8_t { kMinR = 0, kMaxR = 1, kMinT = 2, kMaxT = 3 };
 /// Certain: optimal, unbounded or enclosed.
 inline bool is_certified(Outcome outcome) {
   return outcome == Outcome::kOptimal || outcome == Outcome::kUnbounded || outcome == Outcome::kEnclosed;
+}
+
+/// Left out: by the user's choice, for an estimate, or because there is no admissible state.
+inline bool is_left_out(Outcome outcome) {
+  return outcome == Outcome::kNotRequested || outcome == Outcome::kEstimate;
 }
 
 const char* to_string(Outcome outcome);

@@ -54,6 +54,10 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.choice == ContactChoice::Kind::kSample;
     case Presence::kDrawn:
       return ranges.draws > 0;
+    case Presence::kSeed:
+      return ranges.sample_seed >= 0;
+    case Presence::kEstimate:
+      return ranges.calibration >= 0;
     case Presence::kPaper:
       return ranges.method == Method::kPivotingPaper;
     case Presence::kInterval:

@@ -38,6 +38,8 @@ enum class Presence : std::uint8_t {
   kSubset,    ///< where not all contacts were asked for
   kSample,    ///< where a sample of contacts was
   kDrawn,     ///< where that was drawn with unequal probabilities
+  kSeed,      ///< where a seed drew contacts
+  kEstimate,  ///< where δ is estimated
   kPaper,     ///< where the method is kPivotingPaper
   kInterval,  ///< where values are known to intervals of an asked-for width
   kReason,    ///< where the method was chosen by the program
@@ -127,10 +129,12 @@ void visit_request(Part& r, Visit& visit) {
     visit(Field{"/ranges", name, "1", meaning, FieldSource::kProblem, Extent::kOne, Extent::kOne, presence},
           value);
   };
-  attribute("contacts", "which contacts were asked for: list, sample", Presence::kSubset, r.choice);
+  attribute("contacts", "which contacts were asked for: list, sample, calibration", Presence::kSubset,
+            r.choice);
   attribute("requested", "number of contacts that were asked for", Presence::kSubset, r.requested);
   attribute("draws", "draws with unequal probabilities, with replacement", Presence::kDrawn, r.draws);
-  attribute("sample_seed", "seed that drew the sample", Presence::kSample, r.sample_seed);
+  attribute("sample_seed", "seed that drew the sample, or the contacts that calibrate", Presence::kSeed,
+            r.sample_seed);
   const auto table = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
                          Extent columns, auto& value) {
     visit(Field{"/ranges", name, unit, meaning, source, Extent::kContacts, columns, Presence::kWhereRows},
@@ -296,6 +300,30 @@ void visit_measures(Part& r, Visit& visit) {
 }
 
 template <class Part, class Visit>
+void visit_estimates(Part& r, Visit& visit) {
+  const auto attribute = [&](const char* name, const char* meaning, auto& value) {
+    visit(Field{"/ranges", name, "1", meaning, FieldSource::kProblem, Extent::kOne, Extent::kOne,
+                Presence::kEstimate},
+          value);
+  };
+  attribute("calibration", "contacts that were to calibrate estimates, 0: stored coefficients alone",
+            r.calibration);
+  attribute("coverage", "probability that an interval of an estimate is made for", r.coverage);
+  const auto table = [&](const char* name, const char* unit, const char* meaning, auto& value) {
+    visit(Field{"/ranges", name, unit, meaning, FieldSource::kAnswer, Extent::kContacts, Extent::kOne,
+                Presence::kWhereRows},
+          value);
+  };
+  table("calibrates", "1", "1 if estimates were calibrated on the contact", r.calibrates);
+  table("delta_R_estimate", "mg", "prediction of delta_R, NaN where that is known", r.estimated_R.estimate);
+  table("delta_R_low", "mg", "lower end of the interval of the prediction", r.estimated_R.low);
+  table("delta_R_high", "mg", "upper end of the interval of the prediction", r.estimated_R.high);
+  table("delta_T_estimate", "mg", "prediction of delta_T, NaN where that is known", r.estimated_T.estimate);
+  table("delta_T_low", "mg", "lower end of the interval of the prediction", r.estimated_T.low);
+  table("delta_T_high", "mg", "upper end of the interval of the prediction", r.estimated_T.high);
+}
+
+template <class Part, class Visit>
 void visit_work(Part& r, Visit& visit) {
   const auto attribute = [&](const char* name, const char* meaning, Presence presence, auto& value) {
     visit(Field{"/provenance/work", name, "1", meaning, FieldSource::kWork, Extent::kOne, Extent::kOne,
@@ -353,6 +381,7 @@ void visit_fields(Ranges& ranges, Visit&& visit) {
   result_fields::visit_certified(ranges, visit);
   result_fields::visit_extremal(ranges, visit);
   result_fields::visit_measures(ranges, visit);
+  result_fields::visit_estimates(ranges, visit);
   result_fields::visit_reactions(ranges.reactions, visit);
   result_fields::visit_work(ranges, visit);
 }

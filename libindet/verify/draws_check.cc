@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +11,7 @@
 #include "libindet/base/tolerances.h"
 #include "libindet/statistics/draw_estimate.h"
 #include "libindet/statistics/probability_laws.h"
+#include "libindet/verify/centre_check.h"
 
 namespace indet {
 namespace {
@@ -23,7 +23,7 @@ class DrawsCheck {
       : packing_(packing), ranges_(ranges), problem_(problem), compare_(compare) {}
 
   void run() {
-    check_centre();
+    check_centre(packing_, ranges_, problem_, compare_);
     check_weights();
     check_drawn();
     check_estimate(ranges_.sample_R, ranges_.delta_R, "delta_R");
@@ -31,43 +31,6 @@ class DrawsCheck {
   }
 
  private:
-  void check_centre() {
-    const Eigen::VectorXd centre =
-        Eigen::Map<const Eigen::VectorXd>(ranges_.centre.data(), ranges_.centre.size()) / ranges_.force_unit;
-    const double scale = std::max(problem_.internal_unit(), centre.lpNorm<Eigen::Infinity>());
-    const double imbalance = problem_.imbalance(centre) / scale;
-    compare_.require(imbalance <= tolerance::kDrawCentre, "centre: its forces do not balance ({})",
-                     imbalance);
-    if (imbalance > tolerance::kDrawCentre) return;
-    const int d = problem_.nullity();
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(d);
-    Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(d, d);
-    for (int h = 0; h < problem_.half_planes(); ++h) {
-      // Without friction both half-planes of a contact are R ≥ 0.
-      const bool is_second = h < 2 * packing_.contact_count() && h % 2 == 1;
-      if (is_second && packing_[ContactId(h / 2)].mu == 0) continue;
-      const double slack = problem_.slack(h, centre);
-      if (slack <= tolerance::kTightHalfPlane * scale) {
-        compare_.leave_unchecked("width of /ranges (the centre lies on a half-plane that is closed)");
-        return;
-      }
-      const Eigen::VectorXd normal = problem_.normal_of(h) / slack;
-      slope += normal;
-      hessian.selfadjointView<Eigen::Lower>().rankUpdate(normal);
-    }
-    const Eigen::LLT<Eigen::MatrixXd> factor(hessian.selfadjointView<Eigen::Lower>());
-    // Newton's decrement: the distance to the centre, over the ellipsoid.
-    const double away = factor.matrixL().solve(slope).norm();
-    compare_.require(away <= tolerance::kDrawCentre, "centre: the analytic centre is elsewhere ({})", away);
-    const Eigen::MatrixXd reach = factor.matrixL().solve(problem_.kernel().transpose());
-    for (Eigen::Index k = 0; k < reach.cols(); ++k) {
-      const double width = ranges_.width(k / 2, k % 2) / ranges_.force_unit;
-      compare_.equal(width, reach.col(k).norm(),
-                     fmt::format("width of {} of contact {}", k % 2 == 0 ? "R" : "T", k / 2),
-                     tolerance::kDrawCentre, scale);
-    }
-  }
-
   void check_weights() {
     const Eigen::Index count = ranges_.weight.size();
     double sum[2] = {0, 0};

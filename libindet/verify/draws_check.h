@@ -8,13 +8,8 @@
 namespace indet {
 
 /// Checks contacts that were drawn with unequal probabilities (range/contact_draw.h), and what is estimated
-/// from them. With half-planes of normals n_h within ker c and slacks s_h at the stored centre,
-///
-///   Σ n_h / s_h = 0,   H = Σ n_h n_hᵀ / s_h²,   σ² of a force = k H⁻¹ kᵀ, k its row of the kernel
-///
-/// tell whether it is the analytic centre, and the widths. These give the weights, the weights and the seed
-/// the draws, and draws and values the estimates. Where an edge is closed in all states the centre has no
-/// slack there, and the widths are left unchecked.
+/// from them. The half-planes tell the centre and the widths (centre_check.h), these give the weights, the
+/// weights and the seed the draws, and draws and values the estimates.
 void check_draws(const Packing& packing, const ForceRanges& ranges, const RebuiltProblem& problem,
                  Comparisons& compare);
 

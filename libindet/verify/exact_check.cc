@@ -172,7 +172,7 @@ class Check {
     std::map<std::pair<int, int>, Task> tasks;
     for (Eigen::Index i = 0; i < ranges_.outcome.rows(); ++i) {
       for (int column = 0; column < 4; ++column) {
-        if (ranges_.outcome(i, column) == Outcome::kNotRequested) continue;
+        if (is_left_out(ranges_.outcome(i, column))) continue;
         const int state = ranges_.vertex(i, column);
         const int ray = state < 0 ? ranges_.ray(i, column) : -1;
         Task& task = tasks[{state, ray}];

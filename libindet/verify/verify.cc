@@ -17,6 +17,7 @@
 #include "libindet/verify/estimate_check.h"
 #include "libindet/verify/kept_states_check.h"
 #include "libindet/verify/needed_equations.h"
+#include "libindet/verify/predictions_check.h"
 #include "libindet/verify/reactions_check.h"
 #include "libindet/verify/rebuilt_problem.h"
 
@@ -178,7 +179,7 @@ class Verifier {
       }
       return;
     }
-    if (outcome == Outcome::kFailed || outcome == Outcome::kNotRequested) {
+    if (outcome == Outcome::kFailed || is_left_out(outcome)) {
       compare_.require(std::isnan(value) && vertex < 0, "{}: {}, but a value is stored", place,
                        to_string(outcome));
       return;
@@ -242,11 +243,11 @@ class Verifier {
   }
 
   void check_counts() {
-    std::int64_t counts[6] = {};
+    std::int64_t counts[7] = {};
     for (const Outcome outcome : ranges_.outcome.reshaped()) ++counts[static_cast<int>(outcome)];
-    compare_.equal_count(ranges_.objectives,
-                         4 * std::int64_t{ranges_.status == PolytopeStatus::kEmpty ? packing_.contact_count()
-                                                                                   : ranges_.requested},
+    const bool all = ranges_.status == PolytopeStatus::kEmpty || ranges_.calibration >= 0;
+    const std::int64_t sought = all ? packing_.contact_count() : ranges_.requested;
+    compare_.equal_count(ranges_.objectives, 4 * sought - counts[static_cast<int>(Outcome::kEstimate)],
                          "objectives");
     compare_.equal_count(ranges_.unbounded, counts[static_cast<int>(Outcome::kUnbounded)], "unbounded");
     compare_.equal_count(ranges_.enclosed, counts[static_cast<int>(Outcome::kEnclosed)], "enclosed");
@@ -268,7 +269,7 @@ class Verifier {
     for (Eigen::Index i = 0; i < ranges_.outcome.rows(); ++i) {
       for (int column = 0; column < 4; ++column) {
         const Outcome outcome = ranges_.outcome(i, column);
-        if (outcome == Outcome::kFailed || outcome == Outcome::kNotRequested) continue;
+        if (outcome == Outcome::kFailed || is_left_out(outcome)) continue;
         primal = std::fmax(primal, ranges_.primal_residual(i, column));
         dual = std::fmax(dual, ranges_.dual_residual(i, column));
       }
@@ -279,6 +280,8 @@ class Verifier {
 
   void check_choice() {
     if (ranges_.status == PolytopeStatus::kEmpty) return;
+    if (ranges_.calibration >= 0) return check_predictions(packing_, ranges_, problem_, compare_);
+    compare_.require((ranges_.outcome != Outcome::kEstimate).all(), "outcome: estimate, but there are none");
     std::vector<double> delta_R;
     std::vector<double> delta_T;
     for (Eigen::Index i = 0; i < ranges_.outcome.rows(); ++i) {

@@ -73,7 +73,7 @@ TEST(PackingPicture, DeltaRHasItsElements) {
   const Packing packing = test::sample_packing();
   Eigen::VectorXd delta(5);
   delta << 0, 2, 4, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN();
-  draw_delta_R(folder / "p.svg", packing, delta, "caption");
+  draw_delta_R(folder / "p.svg", packing, delta, Eigen::VectorXd(), "caption");
   const std::string svg = folder.read("p.svg");
   EXPECT_EQ(count(svg, kDisk), 3);
   EXPECT_EQ(count(svg, kUnboundedLine), 1 + 1);

@@ -156,6 +156,32 @@ TEST(RangesFile, HowContactsWereDrawnComesBack) {
               ThrowsMessage<Hdf5ReadError>(HasSubstr("/ranges/drawn: does not go with the draws")));
 }
 
+TEST(RangesFile, EstimatesComeBack) {
+  const test::TemporaryFolder folder;
+  ForceRanges written = test::sample_ranges();
+  written.choice = ContactChoice::Kind::kCalibration;
+  written.requested = 2;
+  written.sample_seed = 3;
+  written.calibration = 2;
+  written.coverage = 0.95;
+  written.calibrates.setZero(5);
+  written.calibrates.head(2).setOnes();
+  written.centre.setConstant(5, 2, 1.5);
+  written.width.setConstant(5, 2, 0.75);
+  double number = 0.5;
+  for (DeltaEstimates* part : {&written.estimated_R, &written.estimated_T}) {
+    for (Eigen::VectorXd* values : {&part->estimate, &part->low, &part->high})
+      values->setLinSpaced(5, number, number + 4), number *= 2;
+  }
+  written.outcome.row(4).setConstant(Outcome::kEstimate);
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  EXPECT_TRUE(test::same_bytes(read_ranges(folder / "r.h5"), written));
+  written.estimated_T.low.resize(0);
+  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+  EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },
+              ThrowsMessage<Hdf5ReadError>(HasSubstr("/ranges@calibration: does not go with the estimates")));
+}
+
 TEST(RangesFile, WhatThePaperCountsComesBack) {
   const test::TemporaryFolder folder;
   ForceRanges written = test::sample_ranges();
