@@ -233,14 +233,20 @@ double VerifiedEquations::shift_of(std::span<const double> x) const {
   return std::isnan(shift) ? kInfinity : shift;
 }
 
-double VerifiedEquations::lower_bound(const Objective& objective, std::span<const double> y) const {
-  const LoadProduct load = load_product(y);
+VerifiedEquations::Transposed VerifiedEquations::reduced_costs(const Objective& objective,
+                                                               std::span<const double> y) const {
   Transposed along = verified_transposed_product(y);
   for (const auto& [column, weight] : objective) {
     const auto k = static_cast<std::size_t>(column);
     along.error[k] += widen_ * 4 * kRoundoff * (std::abs(weight) + std::abs(along.value[k]));
     along.value[k] -= weight;
   }
+  return along;
+}
+
+double VerifiedEquations::lower_bound(const Objective& objective, std::span<const double> y) const {
+  const LoadProduct load = load_product(y);
+  const Transposed along = reduced_costs(objective, y);
   double excess = 0;
   for (std::size_t k = 0; k < along.value.size(); ++k) {
     const double h = along.value[k] + along.error[k];  // above −h_k
@@ -294,11 +300,17 @@ std::vector<double> VerifiedEquations::nearest_multipliers(const Objective& obje
 
 ValueBounds VerifiedEquations::enclose_everywhere(const Objective& objective,
                                                   std::span<const double> y) const {
-  Objective opposite = objective;
-  for (auto& [column, weight] : opposite) weight = -weight;
-  std::vector<double> minus(y.begin(), y.end());
-  for (double& entry : minus) entry = -entry;
-  return {lower_bound(objective, y), -lower_bound(opposite, minus)};
+  const LoadProduct load = load_product(y);
+  const Transposed along = reduced_costs(objective, y);
+  double below = 0, above = 0;
+  for (std::size_t k = 0; k < along.value.size(); ++k) {
+    if (const double h = along.value[k] + along.error[k]; !(h <= 0)) below += h * strength_[k];
+    if (const double h = along.error[k] - along.value[k]; !(h <= 0)) above += h * strength_[k];
+  }
+  const ValueBounds bounds{load.value - load.error - widen_ * widen_ * below,
+                           load.value + load.error + widen_ * widen_ * above};
+  return {std::isnan(bounds.lower) ? -kInfinity : bounds.lower,
+          std::isnan(bounds.upper) ? kInfinity : bounds.upper};
 }
 
 }  // namespace indet::barrier

@@ -75,6 +75,8 @@ class VerifiedEquations {
     std::vector<double> value, error;
   };
   Transposed verified_transposed_product(std::span<const double> y) const;
+  /// Aᵀ y − c in the same way.
+  Transposed reduced_costs(const Objective& objective, std::span<const double> y) const;
   /// b·y, and a bound of its distance from the exact one.
   struct LoadProduct {
     double value = 0, error = 0;

@@ -17,7 +17,7 @@ LogPrediction predict(const EstimateModel& model, bool tangential, const Contact
     // Without friction, or without force, there is no such ratio.
     c[k] = std::isnan(c[k]) ? model.least[k] : std::clamp(c[k], model.least[k], model.largest[k]);
   }
-  const double D = std::log(contact.dimension);
+  const double D = std::log(std::log(std::max(EstimateModel::kLeastDimension, contact.dimension)));
   const std::array<double, EstimateModel::kLocationTerms> terms = {
       1, D, c[0], c[1], c[2], c[3], c[0] * c[0], c[1] * c[1], c[0] * D, c[1] * D};
   LogPrediction result{0, 0};

@@ -21,16 +21,19 @@ struct ContactSituation {
 /// A linear model of ln(δ/σ), fitted to packings all of whose ranges are known (bench/estimate/estimate.py).
 /// The covariates have no unit, so that a packing twice as heavy has estimates twice as large:
 ///
-///   c_1 = ln(σ/mean σ)   c_2 = ln(σ/R_c), of T ln(σ/μR_c)   c_3 = ln(σ_T/μσ_R)   c_4 = |T_c|/μR_c   D = ln
-///   dim F
+///   c_1 = ln(σ/mean σ)    c_2 = ln(σ/R_c), of T ln(σ/μR_c)
+///   c_3 = ln(σ_T/μσ_R)    c_4 = |T_c|/μR_c                   D = ln ln max(dim F, kLeastDimension)
 ///
-///   location f = a_0 + a_1 D + a_2 c_1 + a_3 c_2 + a_4 c_3 + a_5 c_4 + a_6 c_1² + a_7 c_2² + a_8 c_1 D + a_9
-///   c_2 D scale    s = exp(b_0 + b_1 D + b_2 c_1 + b_3 c_2)
+///   location f = a_0 + a_1 D + a_2 c_1 + a_3 c_2 + a_4 c_3 + a_5 c_4
+///                + a_6 c_1² + a_7 c_2² + a_8 c_1 D + a_9 c_2 D
+///   scale    s = exp(b_0 + b_1 D + b_2 c_1 + b_3 c_2)
 ///
-/// c_1 … c_4 count as the end of the range that they have in the packings of the fit where they lie outside.
-/// The residual of a contact is (ln(δ/σ) − f)/s, and `residuals` tells what was found of these: the part that
-/// is common to the contacts of a packing, and quantiles.
+/// δ/σ grows ever more slowly with the size of a packing: its logarithm about linearly with D, from 50 to
+/// 10000 disks. c_1 … c_4 count as the end of the range that they have in the packings of the fit where they
+/// lie outside. The residual of a contact is (ln(δ/σ) − f)/s, and `residuals` tells what was found of these:
+/// the part that is common to the contacts of a packing, and quantiles.
 struct EstimateModel {
+  static constexpr int kLeastDimension = 8;
   static constexpr int kCovariates = 4, kLocationTerms = 10, kScaleTerms = 4;
   std::array<double, kCovariates> least, largest;
   std::array<double, kLocationTerms> location;

@@ -15,11 +15,12 @@ struct ResidualBand {
 int fewest_for_conformal(double coverage);
 
 /// Full conformal prediction about the mean (Vovk, Gammerman, Shafer, Algorithmic Learning in a Random World,
-/// 2005, ch. 2). With the new residual r taken in, m = (Σ r_j + r)/(K + 1) is the mean of K + 1 residuals; r
-/// is in the band if at most n − 1 … of the others, n = ⌊(1 − coverage)(K + 1)⌋, are nearer to m than would
-/// leave it one of the n furthest:
+/// 2005, ch. 2). With the new residual r taken in, m is the mean of K + 1 residuals, and r is in the band unless
+/// it is one of the n that are furthest from m:
 ///
 ///   r in band  ⟺  |r_j − m| ≥ |r − m| for n of the K residuals j at least
+///
+///   m = (Σ r_j + r)/(K + 1),   n = ⌊(1 − coverage)(K + 1)⌋
 ///
 /// Each of these conditions says that r lies between r_j and its mirror image r̄ − (K + 1)/(K − 1) (r_j − r̄),
 /// r̄ the mean of the K, so that the ends are the n-th largest and n-th smallest of the ends of these

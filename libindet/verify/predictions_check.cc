@@ -132,7 +132,7 @@ class PredictionsCheck {
       if (!(c[n] > model.least[n])) c[n] = model.least[n];  // or NaN
       if (c[n] > model.largest[n]) c[n] = model.largest[n];
     }
-    const double D = std::log(static_cast<double>(ranges_.dim));
+    const double D = std::log(std::log(ranges_.dim < 8 ? 8.0 : static_cast<double>(ranges_.dim)));
     const auto& a = model.location;
     const auto& b = model.scale;
     return {a[0] + a[1] * D + (a[2] + a[6] * c[0] + a[8] * D) * c[0] +

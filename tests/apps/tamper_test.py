@@ -181,6 +181,11 @@ class OfRanges(Tampered):
                                    "mean_delta_T", "band_delta_T"})
         self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE, {"ranges@sample_seed"})
 
+    def test_estimates_with_a_forged_digest(self):
+        self.make("analyze", "q.h5", "--accuracy", "estimate", "--calibrate", "2", "--seed", "4")
+        self.assertIn(("ranges/delta_R_high", None), self.places)
+        self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE, set())
+
 
 class OfSamples(Tampered):
     def test_all_states(self):

@@ -69,6 +69,34 @@ TEST(VerifiedEquations, ProveNothingOfDependentRows) {
   }
 }
 
+TEST(VerifiedEquations, EncloseEverywhereWhatIsTheSameEverywhere) {
+  for (const auto& [name, packing] : packings()) {
+    SCOPED_TRACE(name);
+    StrengthSet set(packing);
+    const AnalyticCentre centre = find_analytic_centre(set.structure, set.cholesky);
+    const VerifiedEquations verified(set.problem, set.structure, centre);
+    const Eigen::MatrixXd A = set.matrix();
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      // A row of A x = b, as an objective.
+      Objective objective;
+      for (Eigen::Index k = 0; k < A.cols(); ++k) {
+        if (A(i, k) != 0) objective.emplace_back(static_cast<int>(k), A(i, k));
+      }
+      const ValueBounds bounds =
+          verified.enclose_everywhere(objective, verified.nearest_multipliers(objective));
+      const double value = A.row(i).dot(vector(centre.x));
+      const double size = std::max(1.0, A.row(i).cwiseAbs().dot(vector(centre.x)));
+      EXPECT_LE(bounds.lower, value + 1e-13 * size);
+      EXPECT_GE(bounds.upper, value - 1e-13 * size);
+      EXPECT_LE(bounds.upper - bounds.lower, 1e-8 * size);
+      // And no other multipliers make them wrong.
+      const ValueBounds loose = verified.enclose_everywhere(objective, centre.y);
+      EXPECT_LE(loose.lower, value);
+      EXPECT_GE(loose.upper, value);
+    }
+  }
+}
+
 TEST(VerifiedEquations, RepairBringsAnyPointNearASolution) {
   Random random(41);
   for (const auto& [name, packing] : packings()) {

@@ -59,8 +59,8 @@ TEST(EstimateModel, IsTheFormulaOfItsHeader) {
   model.largest = {9, 9, 9, 1};
   model.location = {0.5, 0.25, 1, 2, 3, 4, 0.1, 0.2, 0.3, 0.4};
   model.scale = {-1, 0.5, 0.25, 0.125};
-  const ContactSituation contact{2, 4, 8, 1.2, 2, 0.5, 0.3, 7};
-  const double D = std::log(7.0), c1 = std::log(0.5), c3 = std::log(0.25 / 0.3), c4 = 0.5;
+  const ContactSituation contact{2, 4, 8, 1.2, 2, 0.5, 0.3, 700};
+  const double D = std::log(std::log(700.0)), c1 = std::log(0.5), c3 = std::log(0.25 / 0.3), c4 = 0.5;
   for (const bool tangential : {false, true}) {
     const double c2 = std::log(tangential ? 2 / 2.4 : 0.25);
     const LogPrediction log = predict(model, tangential, contact);
@@ -72,10 +72,14 @@ TEST(EstimateModel, IsTheFormulaOfItsHeader) {
   }
 }
 
+ContactSituation contact_of_dimension(int dimension) { return {2, 4, 8, 1.2, 2, 0.5, 0.3, dimension}; }
+
 TEST(EstimateModel, TakesTheEndOfARangeForWhatLiesOutside) {
   const ContactSituation frictionless{2, 4, 8, 0, 2, 0, 0, 7};
   const LogPrediction log = predict(kModelOfR, false, frictionless);
   EXPECT_TRUE(std::isfinite(log.location));
+  EXPECT_EQ(predict(kModelOfR, false, contact_of_dimension(1)).location,
+            predict(kModelOfR, false, contact_of_dimension(8)).location);
   const ContactSituation tiny{1e-30, 1, 1, 0, 1e-30, 1e-30, 0.3, 7};
   const ContactSituation tinier{1e-40, 1, 1, 0, 1e-40, 1e-40, 0.3, 7};
   EXPECT_EQ(predict(kModelOfR, false, tiny).location, predict(kModelOfR, false, tinier).location);
