@@ -18,6 +18,7 @@ struct AnalysisArguments {
   std::string accuracy = "standard";
   std::string contacts = "all";
   std::uint64_t seed = 1;
+  std::string reactions = "auto";
   std::string formulation = "auto";
   std::string states = "auto";
   std::string states_of = "all";

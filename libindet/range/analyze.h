@@ -29,6 +29,7 @@ struct AnalyzeOptions {
   PaperOptions paper;  ///< of kPivotingPaper
   LpOptions lp;
   ContactChoice contacts;
+  bool reactions = true;       ///< of walls and fixed disks: find their ranges, too
   StateChoice states;          ///< which extremal states the result keeps
   bool solver_states = false;  ///< where it keeps all canonical ones: also tell where the solver landed
                                ///< (ForceRanges::solver_states)

@@ -21,12 +21,12 @@ struct Target {
 class BarrierSearch {
  public:
   BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
-                const IntervalOptions& options)
+                bool reactions, const IntervalOptions& options)
       : polytope_(polytope),
         problem_(polytope.problem),
         contacts_(contacts),
         options_(options),
-        sums_(reaction_sums(packing)) {
+        sums_(reactions ? reaction_sums(packing) : std::vector<ReactionSum>()) {
     prepare();
   }
 
@@ -169,8 +169,9 @@ class BarrierSearch {
 }  // namespace
 
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
-                                  const std::vector<int>& contacts, const IntervalOptions& options) {
-  return BarrierSearch(packing, polytope, contacts, options).run();
+                                  const std::vector<int>& contacts, bool reactions,
+                                  const IntervalOptions& options) {
+  return BarrierSearch(packing, polytope, contacts, reactions, options).run();
 }
 
 EnclosedValue enclosed_value(double lower, double upper, double gap, double weight) {

@@ -23,7 +23,8 @@ struct BarrierRanges {
 /// search. Where F is empty there are no values, where it is unbounded
 /// all are kFailed. Throws Interrupted.
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
-                                  const std::vector<int>& contacts, const IntervalOptions& options);
+                                  const std::vector<int>& contacts, bool reactions,
+                                  const IntervalOptions& options);
 
 /// What an interval is as a result: its middle is the value; it is enclosed if it is no wider than asked for.
 struct EnclosedValue {
