@@ -158,6 +158,13 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
   }
   command
       .add_option(
+          "--reactions", arguments.reactions,
+          "Whether to find the ranges of the reactions of walls and fixed disks, too: all; none; auto: "
+          "all, but none where some contacts only are asked for, or estimates")
+      ->check(CLI::IsMember({"auto", "all", "none"}))
+      ->capture_default_str();
+  command
+      .add_option(
           "--formulation", arguments.formulation,
           "How the linear programs are written down (docs/theory.md, section 7); the results are the same")
       ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
@@ -216,6 +223,8 @@ AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const C
           "--calibrate has no effect without --accuracy estimate, whose predictions it is about");
     options.contacts = parse_contacts(arguments, contacts);
   }
+  const bool wants_all = options.contacts.kind == ContactChoice::Kind::kAll && !options.estimate;
+  options.reactions = arguments.reactions == "all" || (arguments.reactions == "auto" && wants_all);
   options.formulation = parse_formulation(arguments.formulation);
   options.states = parse_states(arguments, contacts);
   if (const auto reason = options.states.defect(chosen_contacts(options.contacts, contacts)))

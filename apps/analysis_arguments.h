@@ -19,6 +19,7 @@ struct AnalysisArguments {
   std::string contacts = "all";
   std::uint64_t seed = 1;
   std::optional<int> calibrate;  ///< of --accuracy estimate
+  std::string reactions = "auto";
   std::string formulation = "auto";
   std::string states = "auto";
   std::string states_of = "all";

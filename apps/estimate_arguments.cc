@@ -15,6 +15,7 @@ EstimateOptions parse_estimate(const AnalysisArguments& arguments) {
     refuse("--extremal-states and --states-of", "have no effect, as no extremal states are found");
   if (arguments.formulation != "auto")
     refuse("--formulation", "has no effect, as no linear programs are solved");
+  if (arguments.reactions == "all") refuse("--reactions all", "has no effect, as no reactions are estimated");
   EstimateOptions options;
   options.calibration = arguments.calibrate.value_or(options.calibration);
   options.seed = arguments.seed;

@@ -391,6 +391,14 @@ inline constexpr double kCellSize = 1e-14;
 /// A disk of the grid may begin this much beyond a wall, relative to the size of the grid: rounding of both.
 inline constexpr double kWallStart = 1e-12;
 
+/// Where verify looks for no kernel (above kMostForPrograms unknowns), singular values of its contact matrix
+/// below this, relative to its largest column, count as 0. Its square is well above rounding.
+inline constexpr double kSparseRank = 1e-6;
+
+/// What is added to the diagonal of a Schur complement, relative to its entries, because its rows may
+/// depend on each other.
+inline constexpr double kRebuiltLift = 1e-13;
+
 /// A quotient this little below a whole number is that number.
 inline constexpr double kWholeNumber = 1e-9;
 

@@ -191,7 +191,8 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
-    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, interval_options(options));
+    BarrierRanges found =
+        find_barrier_ranges(packing, polytope, contacts, options.reactions, interval_options(options));
     found.extrema.reason = std::move(choice.reason);
     stopwatch.mark("ranges");
     ForceRanges ranges =
@@ -207,7 +208,9 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   stopwatch.mark("ranges");
   seconds["states"] = extrema.state_seconds;
   seconds["ranges"] -= extrema.state_seconds;
-  const FoundReactions reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
+  FoundReactions reactions;
+  if (options.reactions)
+    reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
   Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima);
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);

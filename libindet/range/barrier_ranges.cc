@@ -21,13 +21,12 @@ struct Target {
 class BarrierSearch {
  public:
   BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
-                const IntervalOptions& options, WantsReactions reactions)
-      : wants_reactions_(reactions == WantsReactions::kYes),
-        polytope_(polytope),
+                bool reactions, const IntervalOptions& options)
+      : polytope_(polytope),
         problem_(polytope.problem),
         contacts_(contacts),
         options_(options),
-        sums_(reaction_sums(packing)) {
+        sums_(reactions ? reaction_sums(packing) : std::vector<ReactionSum>()) {
     prepare();
   }
 
@@ -35,14 +34,10 @@ class BarrierSearch {
     if (polytope_.status == PolytopeStatus::kEmpty) return without_states(Outcome::kNotRequested);
     if (!polytope_.central) return without_states(Outcome::kFailed);
     list_contacts();
-    if (wants_reactions_) list_reactions();
+    list_reactions();
     const std::vector<ValueInterval> intervals = enclose_least_values(polytope_, objectives_, options_);
     for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], intervals[k]);
-    if (wants_reactions_) {
-      finish_reactions();
-    } else {
-      leave_out_reactions();
-    }
+    finish_reactions();
     return std::move(result_);
   }
 
@@ -50,13 +45,9 @@ class BarrierSearch {
   /// The method has no values.
   BarrierRanges without_states(Outcome outcome) {
     for (const int i : contacts_) result_.extrema.claim.row(i) = outcome;
-    leave_out_reactions(outcome);
-    return std::move(result_);
-  }
-
-  void leave_out_reactions(Outcome outcome = Outcome::kNotRequested) {
     result_.reactions.outcome.setConstant(outcome);
     for (std::size_t k = 0; k < sums_.size(); ++k) describe(k);
+    return std::move(result_);
   }
 
   void describe(std::size_t k) {
@@ -165,7 +156,6 @@ class BarrierSearch {
     }
   }
 
-  bool wants_reactions_;
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
   const std::vector<int>& contacts_;
@@ -179,9 +169,9 @@ class BarrierSearch {
 }  // namespace
 
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
-                                  const std::vector<int>& contacts, const IntervalOptions& options,
-                                  WantsReactions reactions) {
-  return BarrierSearch(packing, polytope, contacts, options, reactions).run();
+                                  const std::vector<int>& contacts, bool reactions,
+                                  const IntervalOptions& options) {
+  return BarrierSearch(packing, polytope, contacts, reactions, options).run();
 }
 
 EnclosedValue enclosed_value(double lower, double upper, double gap, double weight) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "libindet/packing/packing.h"
@@ -22,11 +21,10 @@ struct BarrierRanges {
 
 /// `contacts`: ascending. A value that is 0 in all states, because no edge of its contact is open, needs no
 /// search. Where F is empty there are no values, where it is unbounded
-/// all are kFailed. Reactions that are not wanted are kNotRequested. Throws Interrupted.
-enum class WantsReactions : std::uint8_t { kNo, kYes };
+/// all are kFailed. Throws Interrupted.
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
-                                  const std::vector<int>& contacts, const IntervalOptions& options,
-                                  WantsReactions reactions = WantsReactions::kYes);
+                                  const std::vector<int>& contacts, bool reactions,
+                                  const IntervalOptions& options);
 
 /// What an interval is as a result: its middle is the value; it is enclosed if it is no wider than asked for.
 struct EnclosedValue {

@@ -4,21 +4,21 @@
 
 namespace indet {
 
-// Fitted by bench/estimate/estimate.py on 2026-11-29 to 19 packings of 50 to 800 disks, friction 0.3, in a
+// Fitted by bench/estimate/estimate.py on 2026-11-30 to 28 packings of 50 to 10000 disks, friction 0.3, in a
 // box (its list DESIGN), each with the same weight: limits of the covariates, location, scale, residuals.
-// Within a packing ln(δ/σ) differs from the location by 0.33 (R) and 0.36 (T), root mean square; means over
-// packings by 0.074 and 0.069.
+// Within a packing ln(δ/σ) differs from the location by 0.32 (R) and 0.35 (T), root mean square; means over
+// packings by 0.079 and 0.076.
 inline constexpr EstimateModel kModelOfR = {
-    {-6.863, -6.306, -4.866, 0},
-    {1.87, -0.528, 1.897, 1},
-    {1.03067, 0.21423, -0.05482, -0.18765, -0.02399, 0.10261, -0.03444, -0.01295, 0.0582, -0.03837},
-    {-1.08803, 0.05967, -0.2556, 0.2651},
-    {0.254, -2.081, 1.825}};
+    {-6.807, -6.17, -4.916, 0},
+    {1.857, -0.527, 1.93, 1},
+    {0.80591, 0.82942, -0.02454, -0.03038, -0.02096, 0.0863, -0.03786, -0.0082, 0.15225, -0.20537},
+    {-1.00715, 0.04845, -0.24365, 0.22384},
+    {0.268, -2.111, 1.803}};
 inline constexpr EstimateModel kModelOfT = {
-    {-7.484, -7.939, -4.866, 0},
-    {2.015, -0.344, 1.897, 1},
-    {1.26927, 0.18798, -0.08518, -0.12263, -0.22642, 0.20321, -0.02141, -0.02999, 0.06125, -0.04818},
-    {-1.25247, 0.08216, -0.16722, 0.14934},
-    {0.198, -2.158, 1.857}};
+    {-7.269, -7.747, -4.916, 0},
+    {2.016, -0.344, 1.93, 1},
+    {1.01127, 0.73417, -0.03287, -0.01851, -0.2038, 0.19464, -0.02325, -0.03047, 0.15082, -0.22388},
+    {-1.28432, 0.24598, -0.16378, 0.14551},
+    {0.229, -2.081, 1.866}};
 
 }  // namespace indet

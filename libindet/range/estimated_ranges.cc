@@ -29,14 +29,13 @@ ForceRanges estimate_ranges(const Packing& packing, const ForcePolytope& polytop
   calibrates.setZero(count);
   for (const int i : contacts) calibrates[i] = 1;
 
-  BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, options, WantsReactions::kNo);
+  BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, false, options);
   enclose_determined(polytope, request, options, found);
   for (Outcome& claim : found.extrema.claim.reshaped()) {
     if (claim == Outcome::kNotRequested) claim = Outcome::kEstimate;
   }
   ForceRanges ranges =
       assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
-  ranges.reactions = std::move(found.reactions);
   static_cast<Estimates&>(ranges) = predict_deltas(packing, ranges, estimate, calibrates);
   return ranges;
 }

@@ -38,7 +38,7 @@ class Groups {
 std::optional<AffineHull> AffineHull::at(const RebuiltProblem& problem, const Eigen::VectorXd& interior) {
   if (!interior.allFinite()) return std::nullopt;
   const Eigen::Index half_planes = problem.half_planes();
-  const Eigen::Index d = problem.nullity();
+  const Eigen::Index d = problem.kernel().cols();
   const double scale =
       interior.size() > 0 ? std::max(problem.internal_unit(), interior.lpNorm<Eigen::Infinity>()) : 1.0;
   Eigen::MatrixXd normals(half_planes, d);

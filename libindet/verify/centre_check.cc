@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/verify/rebuilt_ellipsoid.h"
 
 namespace indet {
+namespace {
+
+constexpr int kMostWidths = 500;  ///< each takes some solves
+
+}  // namespace
 
 void check_centre(const Packing& packing, const ForceRanges& ranges, const RebuiltProblem& problem,
                   Comparisons& compare) {
@@ -17,33 +22,23 @@ void check_centre(const Packing& packing, const ForceRanges& ranges, const Rebui
   const double imbalance = problem.imbalance(centre) / scale;
   compare.require(imbalance <= tolerance::kDrawCentre, "centre: its forces do not balance ({})", imbalance);
   if (imbalance > tolerance::kDrawCentre) return;
-  const int d = problem.nullity();
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(d);
-  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(d, d);
-  for (int h = 0; h < problem.half_planes(); ++h) {
-    // Without friction both half-planes of a contact are R ≥ 0.
-    const bool is_second = h < 2 * packing.contact_count() && h % 2 == 1;
-    if (is_second && packing[ContactId(h / 2)].mu == 0) continue;
-    const double slack = problem.slack(h, centre);
-    if (slack <= tolerance::kTightHalfPlane * scale) {
-      compare.leave_unchecked("width of /ranges (the centre lies on a half-plane that is closed)");
-      return;
-    }
-    const Eigen::VectorXd normal = problem.normal_of(h) / slack;
-    slope += normal;
-    hessian.selfadjointView<Eigen::Lower>().rankUpdate(normal);
+  const auto ellipsoid = RebuiltEllipsoid::about(problem, centre, tolerance::kTightHalfPlane * scale);
+  if (!ellipsoid) {
+    compare.leave_unchecked("width of /ranges (the centre lies on a half-plane that is closed)");
+    return;
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(hessian.selfadjointView<Eigen::Lower>());
-  // Newton's decrement: the distance to the centre, over the ellipsoid.
-  const double away = factor.matrixL().solve(slope).norm();
+  const double away = ellipsoid->decrement();
   compare.require(away <= tolerance::kDrawCentre, "centre: the analytic centre is elsewhere ({})", away);
-  const Eigen::MatrixXd reach = factor.matrixL().solve(problem.kernel().transpose());
-  for (Eigen::Index k = 0; k < reach.cols(); ++k) {
-    const double width = ranges.width(k / 2, k % 2) / ranges.force_unit;
-    compare.equal(width, reach.col(k).norm(),
-                  fmt::format("width of {} of contact {}", k % 2 == 0 ? "R" : "T", k / 2),
-                  tolerance::kDrawCentre, scale);
+  const int step = (packing.contact_count() + kMostWidths - 1) / kMostWidths;
+  for (int i = 0; i < packing.contact_count(); i += step) {
+    for (const int k : {0, 1}) {
+      const double width = ranges.width(i, k) / ranges.force_unit;
+      compare.equal(width, ellipsoid->width(2 * i + k),
+                    fmt::format("width of {} of contact {}", k == 0 ? "R" : "T", i), tolerance::kDrawCentre,
+                    scale);
+    }
   }
+  if (step > 1) compare.leave_unchecked(fmt::format("width of /ranges, but for one in {} contacts", step));
 }
 
 }  // namespace indet

@@ -1,5 +1,6 @@
 #include "libindet/verify/rebuilt_problem.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +19,7 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
   const int disks = packing.disk_count();
   const int contacts = packing.contact_count();
   const int rows = 3 * disks + 2 * packing.wall_count() + 3;
-  matrix_.setZero(rows, 2 * contacts);
+  std::vector<Eigen::Triplet<double>> entries;
   wrench_.setZero(rows);
   for (int w = 0; w < packing.wall_count(); ++w) {
     const Wall& wall = packing[WallId(w)];
@@ -32,7 +33,6 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
     wrench_[3 * i + 1] = (disk.mass * packing.gravity.y() + disk.load.y()) / force_unit_;
     wrench_[3 * i + 2] = disk.load.z() / (force_unit_ * disk.radius);
   }
-  std::vector<int> frictionless;
   for (int c = 0; c < contacts; ++c) {
     const Contact& contact = packing[ContactId(c)];
     const double nx = contact.normal.x();
@@ -41,9 +41,12 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
       const Disk& disk = packing[id];
       if (disk.fixed) return;
       const double arm = std::isnan(lever) ? 1 : lever / disk.radius;
-      Eigen::Matrix<double, 3, 2> part;
-      part << chi * nx, chi * ny, chi * ny, -chi * nx, 0, arm;
-      matrix_.block<3, 2>(3 * id.value(), 2 * c) += part;  // a disk may be at both ends
+      const int row = 3 * id.value();
+      entries.insert(entries.end(), {{row, 2 * c, chi * nx},
+                                     {row, 2 * c + 1, chi * ny},
+                                     {row + 1, 2 * c, chi * ny},
+                                     {row + 1, 2 * c + 1, -chi * nx},
+                                     {row + 2, 2 * c + 1, arm}});
     };
     place(contact.a, 1, contact.lever_a);
     if (!contact.b.is_wall()) {
@@ -51,27 +54,56 @@ RebuiltProblem::RebuiltProblem(const Packing& packing)
     } else {
       const Wall& wall = packing[contact.b.wall_id()];
       const int row = 3 * disks + 2 * contact.b.wall_id().value();
-      if (!std::isnan(wall.load_n)) matrix_(row, 2 * c) = -1;
-      if (!std::isnan(wall.load_t)) matrix_(row + 1, 2 * c + 1) = -1;
+      if (!std::isnan(wall.load_n)) entries.emplace_back(row, 2 * c, -1);
+      if (!std::isnan(wall.load_t)) entries.emplace_back(row + 1, 2 * c + 1, -1);
     }
-    if (contact.mu == 0) frictionless.push_back(2 * c + 1);
+    if (contact.mu == 0) held_.push_back(2 * c + 1);
   }
-  if (packing.stress.is_imposed()) add_stress();
+  if (packing.stress.is_imposed()) add_stress(entries);
+  matrix_.resize(rows, 2 * contacts);
+  matrix_.setFromTriplets(entries.begin(), entries.end());  // a sum where a disk is at both ends
   bounds_ = force_bounds(packing);
-  std::vector<int> held = frictionless;
   for (const ForceBound& bound : bounds_) {
     const bool is_equal = bound.side == ForceBound::Side::kEqual;
     (is_equal ? equalities_ : inequalities_).push_back(bound);
-    if (is_equal) held.push_back(bound.component());
+    if (is_equal) held_.push_back(bound.component());
   }
-  Eigen::MatrixXd constraints(matrix_.rows() + static_cast<Eigen::Index>(held.size()), matrix_.cols());
-  constraints << matrix_, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(held.size()), matrix_.cols());
-  for (std::size_t i = 0; i < held.size(); ++i)
-    constraints(matrix_.rows() + static_cast<Eigen::Index>(i), held[i]) = 1;
-  kernel_ = kernel_basis(constraints, tolerance::kRebuiltRank);
 }
 
-void RebuiltProblem::add_stress() {
+Eigen::SparseMatrix<double> RebuiltProblem::constraints() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto held = static_cast<int>(held_.size());
+  for (int k = 0; k < held; ++k) entries.emplace_back(k, held_[static_cast<std::size_t>(k)], 1);
+  for (Eigen::Index j = 0; j < matrix_.outerSize(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it)
+      entries.emplace_back(held + it.row(), it.col(), it.value());
+  }
+  Eigen::SparseMatrix<double> result(held + matrix_.rows(), matrix_.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+const Eigen::MatrixXd& RebuiltProblem::kernel() const {
+  if (!kernel_) kernel_ = kernel_basis(Eigen::MatrixXd(constraints()), tolerance::kRebuiltRank);
+  return *kernel_;
+}
+
+std::optional<int> RebuiltProblem::nullity_by_inertia(double threshold) const {
+  const Eigen::SparseMatrix<double> matrix = constraints();
+  double largest = 0;
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) largest = std::max(largest, matrix.col(j).norm());
+  if (largest == 0) return static_cast<int>(matrix.cols());
+  Eigen::SparseMatrix<double> unit(matrix.rows(), matrix.rows());
+  unit.setIdentity();
+  const double shift = threshold * largest;
+  const Eigen::SparseMatrix<double> shifted = matrix * matrix.transpose() - shift * shift * unit;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(shifted);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const auto rank = static_cast<int>((factor.vectorD().array() > 0).count());
+  return static_cast<int>(matrix.cols()) - rank;
+}
+
+void RebuiltProblem::add_stress(std::vector<Eigen::Triplet<double>>& entries) {
   const Stress& stress = packing_.stress;
   const Vector2 a = *packing_.cell.a;
   const Vector2 b = *packing_.cell.b;
@@ -79,7 +111,7 @@ void RebuiltProblem::add_stress() {
   double length = std::sqrt(area);
   for (const Disk& disk : packing_.disks) length = std::max(length, 2 * disk.radius);
   const bool isotropic = !std::isnan(stress.pressure);
-  const Eigen::Index first = matrix_.rows() - 3;
+  const auto first = static_cast<int>(wrench_.size()) - 3;
   const double imposed[3] = {isotropic ? stress.pressure : stress.xx, stress.yy, stress.xy};
   for (int k = 0; k < 3; ++k) {
     if (std::isnan(imposed[k])) continue;
@@ -93,19 +125,21 @@ void RebuiltProblem::add_stress() {
       const Vector2 t(n.y(), -n.x());
       const int i = k == 1 ? 1 : 0;
       const int j = k == 0 ? 0 : 1;
-      matrix_(first + k, 2 * c) = k == 0 && isotropic ? -n.dot(l) / 2 : -n[i] * l[j];
-      matrix_(first + k, 2 * c + 1) = k == 0 && isotropic ? -t.dot(l) / 2 : -t[i] * l[j];
+      entries.emplace_back(first + k, 2 * c, k == 0 && isotropic ? -n.dot(l) / 2 : -n[i] * l[j]);
+      entries.emplace_back(first + k, 2 * c + 1, k == 0 && isotropic ? -t.dot(l) / 2 : -t[i] * l[j]);
     }
   }
 }
 
 double RebuiltProblem::imbalance_without_load(const Eigen::VectorXd& forces) const {
-  return matrix_.size() == 0 ? 0 : (matrix_ * forces).lpNorm<Eigen::Infinity>();
+  return matrix_.rows() == 0 || matrix_.cols() == 0
+             ? 0
+             : Eigen::VectorXd(matrix_ * forces).lpNorm<Eigen::Infinity>();
 }
 
 double RebuiltProblem::imbalance(const Eigen::VectorXd& forces) const {
   if (!forces.allFinite()) return std::numeric_limits<double>::infinity();
-  return wrench_.size() == 0 ? 0 : (matrix_ * forces + wrench_).lpNorm<Eigen::Infinity>();
+  return wrench_.size() == 0 ? 0 : Eigen::VectorXd(matrix_ * forces + wrench_).lpNorm<Eigen::Infinity>();
 }
 
 double RebuiltProblem::slack(int half_plane, const Eigen::VectorXd& forces) const {
@@ -159,28 +193,30 @@ RebuiltProblem::SlidingCount RebuiltProblem::count_sliding(const Eigen::VectorXd
   return count;
 }
 
-Eigen::VectorXd RebuiltProblem::normal_of(int half_plane) const {
+RebuiltProblem::Gradient RebuiltProblem::gradient_of(int half_plane) const {
   const int first = 2 * packing_.contact_count();
   if (half_plane >= first) {
     const ForceBound& bound = inequalities_[static_cast<std::size_t>(half_plane - first)];
     const double sign = bound.side == ForceBound::Side::kLower ? 1 : -1;
-    return sign * kernel_.row(bound.component()).transpose();
+    return {bound.contact.value(), bound.tangential ? Vector2(0, sign) : Vector2(sign, 0)};
   }
-  const int contact = half_plane / 2;
-  const double mu = packing_[ContactId(contact)].mu;
-  if (mu == 0) return kernel_.row(2 * contact).transpose();
-  const double sign = half_plane % 2 == 0 ? 1 : -1;
-  return (mu * kernel_.row(2 * contact) + sign * kernel_.row(2 * contact + 1)).transpose() /
-         std::hypot(1.0, mu);
+  const double mu = packing_[ContactId(half_plane / 2)].mu;
+  if (mu == 0) return {half_plane / 2, Vector2(1, 0)};
+  return {half_plane / 2, Vector2(mu, half_plane % 2 == 0 ? 1 : -1) / std::hypot(1.0, mu)};
+}
+
+Eigen::VectorXd RebuiltProblem::normal_of(int half_plane) const {
+  const auto [contact, along] = gradient_of(half_plane);
+  return kernel().middleRows<2>(2 * contact).transpose() * along;
 }
 
 double RebuiltProblem::optimality_gap(int component, double sign, const std::vector<int>& tight) const {
-  return optimality_gap(Eigen::VectorXd::Unit(kernel_.rows(), component) * sign, tight);
+  return optimality_gap(Eigen::VectorXd::Unit(matrix_.cols(), component) * sign, tight);
 }
 
 double RebuiltProblem::optimality_gap(const Eigen::VectorXd& coefficients,
                                       const std::vector<int>& tight) const {
-  const Eigen::VectorXd gradient = kernel_.transpose() * coefficients;
+  const Eigen::VectorXd gradient = kernel().transpose() * coefficients;
   if (gradient.size() == 0 || gradient.norm() == 0) return 0;
   Eigen::MatrixXd normals(nullity(), static_cast<Eigen::Index>(tight.size()));
   for (std::size_t i = 0; i < tight.size(); ++i)

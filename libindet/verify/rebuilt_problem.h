@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <optional>
 #include <vector>
 
 #include "libindet/packing/force_bounds.h"
@@ -9,16 +11,23 @@
 namespace indet {
 
 /// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
-/// solved with other means than the analysis uses: a dense contact matrix [15] with all 2M columns (T is held
-/// at 0 where μ = 0 by a row of its own), two rows a wall (0 for what is fixed) and three for the stress of
-/// the cell (xx or the pressure, yy, xy; 0 for what is not imposed), and its kernel by column-pivoted
-/// Householder QR. Forces in units of the packing's force unit.
+/// solved with other means than the analysis uses: a contact matrix [15] with all 2M columns (T is held at 0
+/// where μ = 0 by a row of its own), two rows a wall (0 for what is fixed) and three for the stress of the
+/// cell (xx or the pressure, yy, xy; 0 for what is not imposed), and its kernel by column-pivoted Householder
+/// QR. The kernel is dense, and found when it is first needed: what needs states in the file, or samples.
+/// Forces in units of the packing's force unit. Not for several threads at once.
 class RebuiltProblem {
  public:
   explicit RebuiltProblem(const Packing& packing);
 
-  int nullity() const { return static_cast<int>(kernel_.cols()); }
-  const Eigen::MatrixXd& kernel() const { return kernel_; }  ///< 2M × d, orthonormal
+  int nullity() const { return static_cast<int>(kernel().cols()); }
+  /// The same without the kernel, with singular values of c below `threshold` times its largest column taken
+  /// for 0: the signs of LDLᵀ = ccᵀ − τ²·1 count them (Sylvester's law of inertia). None if a pivot vanishes.
+  std::optional<int> nullity_by_inertia(double threshold) const;
+  const Eigen::MatrixXd& kernel() const;  ///< 2M × d, orthonormal
+  int contact_count() const { return packing_.contact_count(); }
+  const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }  ///< c [15]
+  const std::vector<int>& held() const { return held_; }  ///< components of forces that are given
   double force_unit() const { return force_unit_; }
   /// The unit that tolerances are meant in, in force units (Packing::internal_force_unit).
   double internal_unit() const { return internal_unit_; }
@@ -37,6 +46,12 @@ class RebuiltProblem {
   /// The same along a direction of growth, in which bounds have the value 0.
   double ray_violation(const Eigen::VectorXd& ray) const;
   double slack(int half_plane, const Eigen::VectorXd& forces) const;
+  /// What the slack of a half-plane changes by, for each unit of R and of T of its contact.
+  struct Gradient {
+    int contact = 0;
+    Vector2 along;
+  };
+  Gradient gradient_of(int half_plane) const;
   /// The inward normal of a half-plane within ker c: the slack along kernel() · z changes by its product
   /// with z.
   Eigen::VectorXd normal_of(int half_plane) const;
@@ -69,13 +84,16 @@ class RebuiltProblem {
   double smallest_power(const Eigen::VectorXd& motion, const Eigen::VectorXd& multipliers) const;
 
  private:
-  void add_stress();
+  void add_stress(std::vector<Eigen::Triplet<double>>& entries);
+  /// A row for each force that is held, and c: (held + 3N + 2W + 3) × 2M.
+  Eigen::SparseMatrix<double> constraints() const;
 
   const Packing& packing_;
   double force_unit_, internal_unit_;
-  Eigen::MatrixXd matrix_;  ///< (3N + 2W + 3) × 2M
-  Eigen::VectorXd wrench_;  ///< 3N + 2W + 3
-  Eigen::MatrixXd kernel_;  ///< 2M × d
+  Eigen::SparseMatrix<double> matrix_;  ///< (3N + 2W + 3) × 2M
+  Eigen::VectorXd wrench_;              ///< 3N + 2W + 3
+  std::vector<int> held_;
+  mutable std::optional<Eigen::MatrixXd> kernel_;
   std::vector<ForceBound> bounds_, inequalities_, equalities_;
 };
 

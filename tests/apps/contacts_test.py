@@ -43,6 +43,19 @@ class Contacts(program.ProgramTest):
         self.assert_same_where_requested("r.h5", [0, 1, 3])
         self.assertNotIn("sample", report)
 
+    def test_reactions_are_of_all_contacts_unless_asked_for(self):
+        every = self.analyze()["reactions"]
+        for method in ("lp", "barrier"):
+            self.assertNotIn("reactions", self.analyze("--method", method, "--contacts", "0-1"))
+            with h5py.File(self.folder / "r.h5") as file:
+                self.assertNotIn("reactions", file)
+            self.assertNotIn("reactions", self.analyze("--method", method, "--reactions", "none"))
+            some = self.analyze("--method", method, "--contacts", "0-1", "--reactions", "all")["reactions"]
+            self.assertEqual(len(some), len(every))
+            for one, other in zip(some, every):
+                self.assertEqual((one["wall"], one["component"]), (other["wall"], other["component"]))
+                np.testing.assert_allclose([one["minimum"], one["maximum"]], [other["minimum"], other["maximum"]], atol=1e-5)
+
     def test_a_sample(self):
         report = self.analyze("--contacts", "sample:3", "--seed", "7")
         with h5py.File(self.folder / "r.h5") as file:

@@ -143,47 +143,6 @@ class Commands(EnsembleTest):
         with h5py.File(self.folder / "some/ensemble.h5") as file:
             self.assertEqual(len(file["ensemble/missing"]), 6)
 
-    def test_uniform_sampling_of_a_member_is_that_of_the_command(self):
-        self.run_indet("ensemble", "--seeds", "1", "--protocols", "cd1,md2", "--disks", "14", "--samples", "60", "-o", "e")
-        runs = table(self.folder / "e/ensemble.h5", "runs")
-        contacts = table(self.folder / "e/ensemble.h5", "contacts")
-        sampled = table(self.folder / "e/ensemble.h5", "sampled")
-        rows = np.flatnonzero(runs["uniform"] == b"converged")
-        self.assertGreater(len(rows), 0)
-        for row in rows:
-            name = f"e/members/{runs['member'][row].decode()}.h5"
-            self.run_indet("sample", name, "--method", "uniform", "--states", "1000000", "-o", "u.h5")
-            self.run_indet("sample", name, "--samples", "60", "-o", "p.h5")
-            for file in (name, "u.h5", "p.h5"):
-                self.run_indet("verify", file)
-            mine = contacts["run"] == row
-            mg = runs["mg"][row]
-            with h5py.File(self.folder / name) as member, h5py.File(self.folder / "u.h5") as u, \
-                    h5py.File(self.folder / "p.h5") as p:
-                for key, value in u["sampling"].attrs.items():
-                    if key not in ("method", "worst_residual"):
-                        self.assertEqual(member["uniform"].attrs[key], value, key)
-                for key in ("center", "deviation", "quantiles", "rhat", "bulk_ess"):
-                    np.testing.assert_array_equal(member[f"uniform/{key}"][()], u[f"sampling/{key}"][()])
-                self.assertEqual(runs["uniform_r"][row], u["sampling"].attrs["r"])
-                R = u["sampling/states"][:, ::2] / mg
-                np.testing.assert_allclose(contacts["uniform_R"][mine], R.mean(0), atol=1e-9)
-                simulated = member["contacts/R"][()] / mg
-                moves = R.std(0) > 1e-6
-                np.testing.assert_allclose(contacts["uniform_R_percentile"][mine][moves],
-                                           100 * (R < simulated).mean(0)[moves], atol=0.5)
-                bins = (sampled["run"] == row) & (sampled["sampling"] == 0) & (sampled["quantity"] == b"R")
-                expected, _ = np.histogram(R, np.append(sampled["low"][bins], sampled["low"][bins][-1] + 1))
-                if np.all(np.diff(sampled["low"][bins]) == 1):
-                    np.testing.assert_allclose(sampled["contacts"][bins], expected / len(R), atol=2 / len(R))
-                self.assertAlmostEqual(sampled["contacts"][bins].sum(), len(simulated))
-                # The distance of the centres, less what noise makes of it.
-                shift = np.linalg.norm(p["sampling/center"][()] - u["sampling/center"][()]) / mg
-                bias = member["bias"].attrs
-                self.assertAlmostEqual(max(0, shift**2 - bias["center_noise"]**2) ** 0.5, bias["center_shift"], places=7)
-                self.assertAlmostEqual(p["sampling"].attrs["r"], bias["r"], places=9)
-                self.assertAlmostEqual(bias["ratio"], bias["r"] / u["sampling"].attrs["r"], places=12)
-
     def test_uniform_seeds_choose_packings_and_leave_the_others_as_they_are(self):
         self.made_ensemble("e")
         runs = table(self.folder / "e/ensemble.h5", "runs")
@@ -199,54 +158,11 @@ class Commands(EnsembleTest):
         for wrong in ("-1", "some", "3x"):
             self.assertIn("expected a number, or all", self.run_indet(*arguments, wrong, "-o", "f", status=2).stderr)
 
-    def test_the_walk_of_the_paper_is_that_of_the_command(self):
-        self.made_ensemble("e")
-        first = json.loads(self.ensemble("e", "--paper-walk", "1", "--json").stdout)
-        self.assertEqual((first["done"], first["skipped"]), (4, 4))
-        runs = table(self.folder / "e/ensemble.h5", "runs")
-        contacts = table(self.folder / "e/ensemble.h5", "contacts")
-        self.assertTrue((np.isnan(runs["paper_walks"]) == (runs["seed"] == 1)).all())
-        self.assertTrue((np.isnan(contacts["paper_d_R"]) == (runs["seed"][contacts["run"]] == 1)).all())
-        differing = 0
-        for row in np.flatnonzero(runs["seed"] == 0):
-            name = runs["member"][row].decode()
-            done = self.run_indet("analyze", f"e/members/{name}.h5", "--method", "pivoting-paper", "--extremal-states",
-                                  "solver", "-o", f"{name}.h5", "--json")
-            paper = json.loads(done.stdout)["paper"]
-            self.assertEqual((paper["neighbour_rule"], paper["walk_start"]), ("first", "common"))
-            self.assertEqual((runs["paper_walks"][row], runs["paper_failures"][row]), (paper["walks"], paper["failures"]))
-            mine = contacts["run"] == row
-            with h5py.File(self.folder / f"{name}.h5") as file:
-                for column in ("d_R", "d_T"):
-                    np.testing.assert_array_equal(contacts[f"paper_{column}"][mine], file[f"ranges/{column}"][()])
-            differing += not np.allclose(contacts["paper_d_R"][mine], contacts["d_R"][mine])
-        self.assertGreater(differing, 0)
-        more = json.loads(self.ensemble("e", "--paper-walk", "all", "--json").stdout)
-        self.assertEqual((more["done"], more["skipped"]), (4, 4))
-        runs = table(self.folder / "e/ensemble.h5", "runs")
-        self.assertFalse(np.isnan(runs["paper_walks"]).any())
-        self.run_indet("report", "e")
-        self.assertIn("CD, the paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
-        self.assertIn("set title 'the paper''s walk'", (self.folder / "e/figures/fig08.gp").read_text())
-        self.assertIn("they measure which of these a method takes", (self.folder / "e/report.html").read_text())
-        self.ensemble("e", "--paper-walk", "0")
-        self.assertTrue(np.isnan(table(self.folder / "e/ensemble.h5", "contacts")["paper_d_R"]).all())
-        self.run_indet("report", "e")
-        self.assertNotIn("paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
-        self.assertIn("--paper-walk some: expected a number, or all", self.ensemble("f", "--paper-walk", "some", status=2).stderr)
-
     def test_an_ensemble_of_an_earlier_version_is_to_be_written_anew(self):
         self.ensemble("e")
         with h5py.File(self.folder / "e/ensemble.h5", "r+") as file:
             del file["table/runs/paper_walks"]
         self.assertIn("was written by an earlier indet", self.run_indet("inspect", "e", status=3).stderr)
-
-    def test_threads_change_nothing(self):
-        for threads in ("1", "3"):
-            self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", threads,
-                           "--threads", threads)
-        self.assertEqual(content(self.folder / "1/ensemble.h5"), content(self.folder / "3/ensemble.h5"))
-        self.assertGreater(len(table(self.folder / "1/ensemble.h5", "sampled")["run"]), 0)
 
     def test_packings_from_elsewhere(self):
         self.packing(program.groove(), "one")
@@ -326,6 +242,94 @@ class Commands(EnsembleTest):
         self.run_indet("merge", ".", "-o", "m", status=3)
         self.run_indet("ensemble", "--protocols", "cd3", "-o", "e", status=2)
         self.assertEqual(self.files(), [])
+
+
+class Agreement(EnsembleTest):
+    """Members hold what other subcommands, and other numbers of threads, find."""
+
+    def test_uniform_sampling_of_a_member_is_that_of_the_command(self):
+        self.run_indet("ensemble", "--seeds", "1", "--protocols", "cd1,md2", "--disks", "14", "--samples", "60", "-o", "e")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        sampled = table(self.folder / "e/ensemble.h5", "sampled")
+        rows = np.flatnonzero(runs["uniform"] == b"converged")
+        self.assertGreater(len(rows), 0)
+        for row in rows:
+            name = f"e/members/{runs['member'][row].decode()}.h5"
+            self.run_indet("sample", name, "--method", "uniform", "--states", "1000000", "-o", "u.h5")
+            self.run_indet("sample", name, "--samples", "60", "-o", "p.h5")
+            for file in (name, "u.h5", "p.h5"):
+                self.run_indet("verify", file)
+            mine = contacts["run"] == row
+            mg = runs["mg"][row]
+            with h5py.File(self.folder / name) as member, h5py.File(self.folder / "u.h5") as u, \
+                    h5py.File(self.folder / "p.h5") as p:
+                for key, value in u["sampling"].attrs.items():
+                    if key not in ("method", "worst_residual"):
+                        self.assertEqual(member["uniform"].attrs[key], value, key)
+                for key in ("center", "deviation", "quantiles", "rhat", "bulk_ess"):
+                    np.testing.assert_array_equal(member[f"uniform/{key}"][()], u[f"sampling/{key}"][()])
+                self.assertEqual(runs["uniform_r"][row], u["sampling"].attrs["r"])
+                R = u["sampling/states"][:, ::2] / mg
+                np.testing.assert_allclose(contacts["uniform_R"][mine], R.mean(0), atol=1e-9)
+                simulated = member["contacts/R"][()] / mg
+                moves = R.std(0) > 1e-6
+                np.testing.assert_allclose(contacts["uniform_R_percentile"][mine][moves],
+                                           100 * (R < simulated).mean(0)[moves], atol=0.5)
+                bins = (sampled["run"] == row) & (sampled["sampling"] == 0) & (sampled["quantity"] == b"R")
+                expected, _ = np.histogram(R, np.append(sampled["low"][bins], sampled["low"][bins][-1] + 1))
+                if np.all(np.diff(sampled["low"][bins]) == 1):
+                    np.testing.assert_allclose(sampled["contacts"][bins], expected / len(R), atol=2 / len(R))
+                self.assertAlmostEqual(sampled["contacts"][bins].sum(), len(simulated))
+                # The distance of the centres, less what noise makes of it.
+                shift = np.linalg.norm(p["sampling/center"][()] - u["sampling/center"][()]) / mg
+                bias = member["bias"].attrs
+                self.assertAlmostEqual(max(0, shift**2 - bias["center_noise"]**2) ** 0.5, bias["center_shift"], places=7)
+                self.assertAlmostEqual(p["sampling"].attrs["r"], bias["r"], places=9)
+                self.assertAlmostEqual(bias["ratio"], bias["r"] / u["sampling"].attrs["r"], places=12)
+
+    def test_the_walk_of_the_paper_is_that_of_the_command(self):
+        self.made_ensemble("e")
+        first = json.loads(self.ensemble("e", "--paper-walk", "1", "--json").stdout)
+        self.assertEqual((first["done"], first["skipped"]), (4, 4))
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        self.assertTrue((np.isnan(runs["paper_walks"]) == (runs["seed"] == 1)).all())
+        self.assertTrue((np.isnan(contacts["paper_d_R"]) == (runs["seed"][contacts["run"]] == 1)).all())
+        differing = 0
+        for row in np.flatnonzero(runs["seed"] == 0):
+            name = runs["member"][row].decode()
+            done = self.run_indet("analyze", f"e/members/{name}.h5", "--method", "pivoting-paper", "--extremal-states",
+                                  "solver", "-o", f"{name}.h5", "--json")
+            paper = json.loads(done.stdout)["paper"]
+            self.assertEqual((paper["neighbour_rule"], paper["walk_start"]), ("first", "common"))
+            self.assertEqual((runs["paper_walks"][row], runs["paper_failures"][row]), (paper["walks"], paper["failures"]))
+            mine = contacts["run"] == row
+            with h5py.File(self.folder / f"{name}.h5") as file:
+                for column in ("d_R", "d_T"):
+                    np.testing.assert_array_equal(contacts[f"paper_{column}"][mine], file[f"ranges/{column}"][()])
+            differing += not np.allclose(contacts["paper_d_R"][mine], contacts["d_R"][mine])
+        self.assertGreater(differing, 0)
+        more = json.loads(self.ensemble("e", "--paper-walk", "all", "--json").stdout)
+        self.assertEqual((more["done"], more["skipped"]), (4, 4))
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        self.assertFalse(np.isnan(runs["paper_walks"]).any())
+        self.run_indet("report", "e")
+        self.assertIn("CD, the paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
+        self.assertIn("set title 'the paper''s walk'", (self.folder / "e/figures/fig08.gp").read_text())
+        self.assertIn("they measure which of these a method takes", (self.folder / "e/report.html").read_text())
+        self.ensemble("e", "--paper-walk", "0")
+        self.assertTrue(np.isnan(table(self.folder / "e/ensemble.h5", "contacts")["paper_d_R"]).all())
+        self.run_indet("report", "e")
+        self.assertNotIn("paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
+        self.assertIn("--paper-walk some: expected a number, or all", self.ensemble("f", "--paper-walk", "some", status=2).stderr)
+
+    def test_threads_change_nothing(self):
+        for threads in ("1", "3"):
+            self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", threads,
+                           "--threads", threads)
+        self.assertEqual(content(self.folder / "1/ensemble.h5"), content(self.folder / "3/ensemble.h5"))
+        self.assertGreater(len(table(self.folder / "1/ensemble.h5", "sampled")["run"]), 0)
 
 
 class Processes(EnsembleTest):
