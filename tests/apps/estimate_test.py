@@ -211,6 +211,7 @@ class Estimate(program.ProgramTest):
                               (["--extremal-states", "canonical"], "no extremal states are found"),
                               (["--states-of", "largest:2"], "no extremal states are found"),
                               (["--formulation", "edge"], "no linear programs"),
+                              (["--reactions", "all"], "no reactions are estimated"),
                               (["--calibrate", "0", "--gap", "1e-3"], "--gap has no effect with --calibrate 0"),
                               (["--calibrate", "0", "--seed", "2"], "--seed has no effect with --calibrate 0"),
                               (["--neighbour", "best"], "--neighbour best has no effect"),
