@@ -15,8 +15,8 @@ struct ResidualBand {
 int fewest_for_conformal(double coverage);
 
 /// Full conformal prediction about the mean (Vovk, Gammerman, Shafer, Algorithmic Learning in a Random World,
-/// 2005, ch. 2). With the new residual r taken in, m is the mean of K + 1 residuals, and r is in the band unless
-/// it is one of the n that are furthest from m:
+/// 2005, ch. 2). With the new residual r taken in, m is the mean of K + 1 residuals, and r is in the band
+/// unless it is one of the n that are furthest from m:
 ///
 ///   r in band  ⟺  |r_j − m| ≥ |r − m| for n of the K residuals j at least
 ///
