@@ -69,6 +69,12 @@ int main(int argc, char** argv) {
     rare.drawn.head(3) << 1, 2, 1;
     rare.centre.setConstant(5, 2, 1.5);
     rare.width.setConstant(5, 2, 0.75);
+    rare.calibration = 2;
+    rare.coverage = 0.95;
+    rare.calibrates.setOnes(5);
+    for (auto* part : {&rare.estimated_R, &rare.estimated_T}) {
+      for (auto* values : {&part->estimate, &part->low, &part->high}) values->setConstant(5, 0.25);
+    }
     rare.method = indet::Method::kPivotingPaper;
     rare.paper_options.neighbour = indet::NeighbourRule::kRandom;
     rare.motion.setConstant(3, 3, 0.5);
