@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """A synthetic pile of any size, as a folder for `indet import --format csv`.
 
-    bench/large/synthetic_pile.py DISKS FOLDER [--seed S] [--mu 0.3]
+    bench/large/synthetic_pile.py DISKS FOLDER [--seed S] [--mu 0.3] [--plate]
 
 Rows of disks, each between two of the row below and displaced a little. The lowest row is glued, and walls stand at both
 sides, so that every disk has two contacts below and all equations are independent. M is about 2 N (1.7 N in packings that
 molecular dynamics makes). The forces are drawn, R from an exponential law that grows with the depth, T within the cone, and
 the loads of the disks are what balances them. Forces cannot grow without limit, for small friction: a disk has contacts
-below, above and at a wall alone, and those of the top row have none above.
+below, above and at a wall alone, and those of the top row have none above. With --plate a loaded wall lies on the top row, which
+may move up and down; all other forces stay as they are.
 """
 import argparse
 from pathlib import Path
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 
-def pile(disks, mu, random):
+def pile(disks, mu, random, plate=False):
     columns = max(2, int(round(np.sqrt(disks))))
     rows = int(np.ceil(disks / columns))
     radius = 0.5
@@ -47,6 +48,13 @@ def pile(disks, mu, random):
     inner = b >= 0
     np.add.at(load, b[inner], np.c_[force, -T * radius][inner])
     load[row == 0] = 0
+    if plate:
+        top = index[row == rows - 1]
+        pressed = random.exponential(5, len(top))
+        a, b = np.r_[a, top], np.r_[b, np.full(len(top), -3)]
+        normal = np.r_[normal, np.tile([0.0, -1.0], (len(top), 1))]
+        R, T = np.r_[R, pressed], np.r_[T, np.zeros(len(top))]
+        load[top, 1] += pressed
     return position, radius, row == 0, columns, a, b, normal, R, T, load
 
 
@@ -56,8 +64,10 @@ def main():
     arguments.add_argument("folder", type=Path)
     arguments.add_argument("--seed", type=int, default=0)
     arguments.add_argument("--mu", type=float, default=0.3)
+    arguments.add_argument("--plate", action="store_true")
     options = arguments.parse_args()
-    position, radius, glued, columns, a, b, normal, R, T, load = pile(options.disks, options.mu, np.random.default_rng(options.seed))
+    position, radius, glued, columns, a, b, normal, R, T, load = pile(options.disks, options.mu,
+                                                                      np.random.default_rng(options.seed), options.plate)
     options.folder.mkdir(parents=True, exist_ok=True)
     with open(options.folder / "disks.csv", "w") as file:
         file.write("id,x,y,radius,mass,fx,fy,torque,fixed\n")
@@ -65,7 +75,10 @@ def main():
             fx, fy, torque = load[i].tolist()
             file.write(f"{i},{x!r},{y!r},{radius!r},1,{fx!r},{fy!r},{torque!r},{int(glued[i])}\n")
     with open(options.folder / "walls.csv", "w") as file:
-        file.write(f"id,px,py,nx,ny,name\n0,-0.5,0,1,0,left\n1,{columns},0,-1,0,right\n")
+        file.write(f"id,px,py,nx,ny,name,load_n\n0,-0.5,0,1,0,left,\n1,{columns},0,-1,0,right,\n")
+        if options.plate:
+            top = float(position[:, 1].max() + radius)
+            file.write(f"2,0,{top!r},0,-1,plate,{float(R[b == -3].sum())!r}\n")
     with open(options.folder / "contacts.csv", "w") as file:
         file.write("a,b,nx,ny,R,T\n")
         for row in zip(a.tolist(), b.tolist(), *normal.T.tolist(), R.tolist(), T.tolist()):

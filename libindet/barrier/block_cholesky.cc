@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "libindet/barrier/aligned_memory.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet::barrier {

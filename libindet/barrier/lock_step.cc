@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 
+#include "libindet/barrier/aligned_memory.h"
 #include "libindet/barrier/block_cholesky.h"
 #include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"

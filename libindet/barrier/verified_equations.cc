@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libindet/barrier/stored_entries.h"
+#include "libindet/barrier/vectors.h"
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
 
@@ -11,6 +12,9 @@ namespace indet::barrier {
 namespace {
 
 constexpr double kSmallest = 0x1p-300;
+/// A residual, in the unit of the problem, of which a repair may leave more than rounding: it leaves some
+/// 1e-9 of it.
+constexpr double kLargeResidual = 1e-6;
 
 /// γ_n of Higham: the relative rounding of a sum of n products.
 double gamma(double n) { return n * kRoundoff / (1 - n * kRoundoff); }
@@ -202,9 +206,11 @@ void VerifiedEquations::bound_strengths() {
 
 std::vector<double> VerifiedEquations::repaired(std::span<const double> x) const {
   std::vector<double> result(x.begin(), x.end());
-  for (int step = 0; step < 2; ++step) {
+  double residual = kInfinity;
+  for (int step = 0; step < 2 && residual > kLargeResidual; ++step) {
     std::vector<double> w = product(structure_, result);
     for (std::size_t i = 0; i < w.size(); ++i) w[i] = structure_.load()[i] - w[i];
+    residual = largest_entry(w);
     cholesky_.solve(w);
     const std::vector<double> along = transposed_product(structure_, w);
     for (std::size_t k = 0; k < result.size(); ++k) result[k] += squares_[k] * along[k];
@@ -215,18 +221,22 @@ std::vector<double> VerifiedEquations::repaired(std::span<const double> x) const
 double VerifiedEquations::shift_of(std::span<const double> x) const {
   if (!(sigma_ > 0)) return kInfinity;
   if (row_terms_.empty()) return 0;
-  const std::vector<double> value = product(structure_, x);
-  const std::vector<double> magnitude = magnitude_product(structure_, x);
-  std::vector<double> entries(value.size(), 0);
-  for_each_entry(structure_, [&](std::size_t column, std::size_t place, double) {
-    entries[place] += std::abs(x[column]);
+  struct Row {
+    double residual = 0, size = 0, strengths = 0;  // b − A x, |b| + |A| |x|, Σ |x|
+  };
+  std::vector<Row> rows(row_terms_.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = {structure_.load()[i], std::abs(structure_.load()[i]), 0};
+  for_each_entry(structure_, [&](std::size_t column, std::size_t place, double entry) {
+    const double term = entry * x[column];
+    rows[place].residual -= term;
+    rows[place].size += std::abs(term);
+    rows[place].strengths += std::abs(x[column]);
   });
   double sum = 0;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const double size = magnitude[i] + std::abs(structure_.load()[i]);
-    const double residual = std::abs(structure_.load()[i] - value[i]) +
-                            widen_ * (gamma(row_terms_[i] + 2) * size + entry_error_[i] * entries[i]) +
-                            load_error_[i] + kTiny;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double rounding = gamma(row_terms_[i] + 2) * rows[i].size + entry_error_[i] * rows[i].strengths;
+    const double residual = std::abs(rows[i].residual) + widen_ * rounding + load_error_[i] + kTiny;
     sum += residual * residual * scale_[i] * scale_[i];
   }
   const double shift = widen_ * std::sqrt(widen_ * sum) / sigma_;

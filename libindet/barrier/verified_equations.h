@@ -33,9 +33,9 @@ struct ValueBounds {
 /// *A least value c·x*, from any x and y of an iteration:
 ///
 ///   from below by duality:   c·x ≥ b·y + Σ_k min(0, h_k) X_k,   h = c − Aᵀ y
-///   from above by a point of the set: x is repaired (x += X² Aᵀ w, (A X² Aᵀ) w = b − A x, twice), then some
-///   exact
-///     solution is within x_c η of it, and moved by a share θ towards the one near x_c it violates no x ≥ 0.
+///   from above by a point of the set: x is repaired (x += X² Aᵀ w, (A X² Aᵀ) w = b − A x), then some
+///     exact solution is within x_c η of it, and moved by a share θ towards the one near x_c it violates no x
+///     ≥ 0.
 ///
 /// The repair is not optional: in the last steps of an iteration ‖b − A x‖ grows, to 0.1 at times.
 class VerifiedEquations {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace indet::exact {
 namespace {
@@ -112,6 +113,31 @@ std::optional<RationalVector> kernel_vector(const std::vector<const IntegerColum
   return holds ? std::optional(std::move(x)) : std::nullopt;
 }
 
+/// True if a row is the combination of others whose coefficients are these, modulo the prime, taken for small
+/// whole numbers: of two forces that cancel, in a cell, all are 1 or −1.
+bool is_whole_combination(const IntegerColumn& row, const std::vector<const IntegerColumn*>& others,
+                          const std::vector<std::uint64_t>& coefficients, std::uint64_t prime) {
+  constexpr std::uint64_t kSmall = 1U << 20U;
+  std::vector<std::pair<int, mpz_class>> left;
+  for (std::size_t k = 0; k < row.row.size(); ++k) left.emplace_back(row.row[k], row.value[k]);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const std::uint64_t c = coefficients[i];
+    if (c == 0) continue;
+    if (c > kSmall && prime - c > kSmall) return false;
+    const mpz_class whole = c <= kSmall ? mpz_class(c) : -mpz_class(prime - c);
+    for (std::size_t k = 0; k < others[i]->row.size(); ++k)
+      left.emplace_back(others[i]->row[k], -whole * others[i]->value[k]);
+  }
+  std::sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  mpz_class sum = 0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    sum += left[k].second;
+    const bool is_last = k + 1 == left.size() || left[k + 1].first != left[k].first;
+    if (is_last && sum != 0) return false;
+  }
+  return true;
+}
+
 /// True if every row that is not among the pivots' is a combination of these, load included: a motion with
 /// this row and independent ones alone, under which every column rests and the load does no work. Which rows
 /// take part is found modulo the prime; they are usually few (of a lone disk on a floor, its own).
@@ -138,9 +164,12 @@ bool follow_from(const ContactProblem& problem, const std::vector<const IntegerC
       if (at >= 0) right[static_cast<std::size_t>(at)] = field.reduce(dependent.value[k]);
     }
     const std::vector<std::uint64_t> combination = square_lu.solve_transposed(std::move(right));
+    std::vector<const IntegerColumn*> others;
+    for (const int k : independent) others.push_back(&by_row[static_cast<std::size_t>(k)]);
+    if (is_whole_combination(dependent, others, combination, field.prime())) continue;
     std::vector<const IntegerColumn*> chosen{&dependent};
     for (std::size_t k = 0; k < combination.size(); ++k) {
-      if (combination[k] != 0) chosen.push_back(&by_row[static_cast<std::size_t>(independent[k])]);
+      if (combination[k] != 0) chosen.push_back(others[k]);
     }
     if (chosen.size() > most_rows) return false;
     // Independent rows alone have a trivial kernel, so any kernel vector has a part in this row.

@@ -54,8 +54,9 @@ bool proves_ray(const ContactProblem& problem, std::span<const double> guess, do
 
 /// True if each step's edges are 0 in every state (a motion exists under which they open, the load does no
 /// work, and every edge that stays open rests), and the equations of the edges that stay open in the end have
-/// exactly the given rank and do not contradict each other (not asked if no rank is given). The cost grows
-/// with the cube of the number of rows from which one that is not independent follows: with more than
+/// exactly the given rank and do not contradict each other (not asked if no rank is given). Of a row
+/// that is not independent the cost grows with the cube of the number of rows from which it follows, unless
+/// it is their sum with small whole numbers (all forces of a cell along x add up to 0): with more than
 /// `most_rows` of them nothing is proven.
 bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
                       std::optional<int> final_rank,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "libindet/exact/certificate.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/polytope/sparse_decision.h"
 
@@ -58,10 +59,12 @@ std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing) {
   const RankDecision rank = decide_rank(polytope.natural.matrix);
   if (rank.ambiguous) return {};
   polytope.natural_null_space = polytope.null_space = without_kernel(rank);
-  // Most packings: the centre by itself proves all there is to decide.
-  if (rank.rank == polytope.natural.equations() && rank.rank > 0) {
+  // Most packings: the centre by itself proves all there is to decide, but that rows follow from others.
+  if (rank.rank > 0) {
     auto central = std::make_shared<const CentralPolytope>(polytope.natural, rank.independent_rows);
-    if (central->is_proven()) {
+    const bool is_plain = rank.rank == polytope.natural.equations();
+    if (central->is_proven() &&
+        (is_plain || exact::proves_structure(exact::ContactProblem(packing), {}, rank.rank, kExactRows))) {
       polytope.problem = polytope.natural;
       polytope.dim = rank.nullity;
       polytope.status = polytope.dim > 0 ? PolytopeStatus::kBounded : PolytopeStatus::kPoint;

@@ -7,6 +7,7 @@
 
 #include "libindet/exact/certificate.h"
 #include "tests/support/extremes.h"
+#include "tests/support/periodic_lattice.h"
 #include "tests/support/rational_simplex.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/zoo.h"
@@ -155,6 +156,18 @@ TEST(Certificate, FindsTheRowsThatADependentRowFollowsFrom) {
   // A torque on one of them contradicts its other equations.
   packing.disks.back().load.z() = 1e-300;
   EXPECT_FALSE(proves_structure(ContactProblem(packing), {}, 123));
+}
+
+TEST(Certificate, ProvesRowsThatAddUpToNothingHoweverManyTheyAre) {
+  // In a cell the forces along x, and along y, of all disks cancel; three rows are of the stress.
+  Packing packing = zoo::periodic_lattice(9, 9, 0.5, 0.02);
+  constexpr int kRank = 3 * 81 - 2 + 3;
+  constexpr std::size_t kFewRows = 10;
+  EXPECT_TRUE(proves_structure(ContactProblem(packing), {}, kRank, kFewRows));
+  EXPECT_FALSE(proves_structure(ContactProblem(packing), {}, kRank + 1, kFewRows));
+  // A load on one of them has nothing to balance it.
+  packing.disks[5].load.y() = 1e-300;
+  EXPECT_FALSE(proves_structure(ContactProblem(packing), {}, kRank, kFewRows));
 }
 
 TEST(Certificate, FindsADependentRowThatFollowsFromAllOthers) {
