@@ -73,5 +73,23 @@ TEST_F(DrawsCheck, TellsAnotherStateFromTheCentre) {
   EXPECT_THAT(first_message(check(wrong)), HasSubstr("centre: the analytic centre is elsewhere"));
 }
 
+TEST(DrawsChecks, FindNothingWrongInPiles) {
+  int drawn = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Packing pile = zoo::random_pile(seed, 40, 0.3);
+    AnalyzeOptions options;
+    options.method = Method::kBarrier;
+    options.gap = 1e-2;
+    options.contacts = {ContactChoice::Kind::kSample, 6, seed, {}};
+    const ForceRanges ranges = analyze(pile, options);
+    if (ranges.draws == 0) continue;  // unbounded, or empty
+    ++drawn;
+    Comparisons compare;
+    check_draws(pile, ranges, RebuiltProblem(pile), compare);
+    EXPECT_TRUE(compare.result().passed()) << seed << ": " << first_message(compare.result());
+  }
+  EXPECT_GT(drawn, 2);
+}
+
 }  // namespace
 }  // namespace indet
