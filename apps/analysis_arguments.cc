@@ -141,9 +141,9 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
       ->type_name("all|sample:K|LIST")
       ->capture_default_str();
   command
-      .add_option(
-          "--seed", arguments.seed,
-          "Seed of the random numbers of --contacts sample:K, --neighbour random, and --accuracy estimate")
+      .add_option("--seed", arguments.seed,
+                  std::string("Seed of the random numbers of --contacts sample:K and of --neighbour random") +
+                      (levels == Levels::kAll ? ", and of --accuracy estimate" : ""))
       ->check(not_negative())
       ->capture_default_str();
   if (levels == Levels::kAll) {
@@ -155,14 +155,14 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
             "for packings of any kind; with 0 no range is found, and they hold for packings like those "
             "that the program's own coefficients come from")
         ->check(not_negative());
+    command
+        .add_option(
+            "--reactions", arguments.reactions,
+            "Whether to find the ranges of the reactions of walls and fixed disks, too: all; none; auto: "
+            "all, but none where some contacts only are asked for, or estimates")
+        ->check(CLI::IsMember({"auto", "all", "none"}))
+        ->capture_default_str();
   }
-  command
-      .add_option(
-          "--reactions", arguments.reactions,
-          "Whether to find the ranges of the reactions of walls and fixed disks, too: all; none; auto: "
-          "all, but none where some contacts only are asked for, or estimates")
-      ->check(CLI::IsMember({"auto", "all", "none"}))
-      ->capture_default_str();
   command
       .add_option(
           "--formulation", arguments.formulation,

@@ -9,13 +9,12 @@ directions under stress, repeated --tiles times along each side. Prints processo
 """
 import argparse
 import csv
-import json
-import os
 import pathlib
 import subprocess
 import sys
 
 import h5py
+import measured
 import numpy as np
 
 
@@ -70,31 +69,22 @@ def main():
     indet = options.build.resolve() / "indet"
     options.folder.mkdir(parents=True, exist_ok=True)
 
-    def run(*arguments):
-        process = subprocess.Popen([indet, "--threads", "1", *map(str, arguments)], stdout=subprocess.PIPE, text=True)
-        output = process.stdout.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode not in (0, 5):
-            raise SystemExit(f"{arguments}: status {process.returncode}")
-        return output, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
-
     packings = {}
     for name, more in (("pile", []), ("pile under a plate", ["--plate"])):
         scene = options.folder / name.replace(" ", "-")
         subprocess.run([sys.executable, pathlib.Path(__file__).parent / "synthetic_pile.py", str(options.disks), scene, *more], check=True)
         packings[name] = scene.with_suffix(".h5")
-        run("import", "--format", "csv", scene, "-o", packings[name], "--overwrite", "--quiet")
+        measured.run(indet, "import", "--format", "csv", scene, "-o", packings[name], "--overwrite")
     if options.cell:
         tiled(options.cell, options.tiles, options.folder / "cell")
         packings["cell under stress"] = options.folder / "cell.h5"
-        run("import", "--format", "csv", options.folder / "cell", "-o", packings["cell under stress"], "--overwrite", "--quiet")
+        measured.run(indet, "import", "--format", "csv", options.folder / "cell", "-o", packings["cell under stress"], "--overwrite")
     used = {name: [] for name in packings}
     for _ in range(options.repeats):
         for name, path in packings.items():
-            output, seconds, memory = run("analyze", path, "--method", "barrier", "--contacts", f"sample:{options.contacts}", "-o",
-                                          options.folder / "r.h5", "--overwrite", "--json")
-            used[name].append((seconds, memory, json.loads(output)))
+            used[name].append(measured.run(indet, "analyze", path, "--method", "barrier", "--contacts",
+                                           f"sample:{options.contacts}", "-o", options.folder / "r.h5", "--overwrite",
+                                           report=True))
     for name, runs in used.items():
         report = runs[0][2]
         print(f"{name:<20} {report['disks']} disks, {report['contacts']} contacts, {report['status']}: "

@@ -17,14 +17,12 @@ and trade.svg with the Pareto front of each packing.
 """
 import argparse
 import collections
-import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
 
 import h5py
+import measured
 import numpy as np
 
 COLUMNS = ["packing", "disks", "contacts", "knob", "setting", "seconds", "memory_MB", "error", "by_interval", "certified", "values"]
@@ -45,22 +43,10 @@ class Bench:
         self.folder, self.repeats, self.limit = options.folder, options.repeats, options.limit
         self.rows = []
 
-    def run(self, *arguments):
-        """The report of a subcommand, its processor time and its memory in MB."""
-        process = subprocess.Popen([self.indet, "--threads", "1", *map(str, arguments), "--json", "--quiet"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                                   env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
-        output = process.stdout.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode not in (0, 5):
-            raise RuntimeError(f"{arguments}: status {process.returncode}")
-        return json.loads(output), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
-
     def packing(self, disks):
         path = self.folder / f"md1-{disks}-1.h5"
         if not path.exists():
-            self.run("simulate", "--protocol", "md1", "--disks", disks, "--seed", 1, "-o", path)
+            measured.run(self.indet, "simulate", "--protocol", "md1", "--disks", disks, "--seed", 1, "-o", path)
         return path
 
     def expected(self, knob, setting, disks):
@@ -89,7 +75,8 @@ class Bench:
             runs = []
             for seed in range(1, repeats + 1):
                 seeded = ["--seed", seed] if is_random and setting != "0" else []
-                report, *used = self.run("analyze", path, *arguments, *seeded, "--overwrite", "-o", out)
+                *used, report = measured.run(self.indet, "analyze", path, *arguments, *seeded, "--overwrite", "-o", out,
+                                             report=True)
                 runs.append((report | {"mean": self.mean(knob, report, out)}, *used))
             found.append((knob, setting, runs))
         exact = [runs[0][0]["mean_delta_R"] for knob, _, runs in found if knob.startswith("all")]

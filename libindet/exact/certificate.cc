@@ -154,6 +154,8 @@ bool follow_from(const ContactProblem& problem, const std::vector<const IntegerC
   std::vector<const IntegerColumn*> conditions = columns;
   conditions.push_back(&load);
   const std::vector<IntegerColumn> by_row = transposed(conditions, problem.rows());
+  std::vector<const IntegerColumn*> others;
+  for (const int k : independent) others.push_back(&by_row[static_cast<std::size_t>(k)]);
   const std::vector<int> pivot_number = numbers_of(pivot_columns, static_cast<int>(conditions.size()));
   for (int row = 0; row < problem.rows(); ++row) {
     if (number[static_cast<std::size_t>(row)] >= 0) continue;
@@ -164,8 +166,6 @@ bool follow_from(const ContactProblem& problem, const std::vector<const IntegerC
       if (at >= 0) right[static_cast<std::size_t>(at)] = field.reduce(dependent.value[k]);
     }
     const std::vector<std::uint64_t> combination = square_lu.solve_transposed(std::move(right));
-    std::vector<const IntegerColumn*> others;
-    for (const int k : independent) others.push_back(&by_row[static_cast<std::size_t>(k)]);
     if (is_whole_combination(dependent, others, combination, field.prime())) continue;
     std::vector<const IntegerColumn*> chosen{&dependent};
     for (std::size_t k = 0; k < combination.size(); ++k) {

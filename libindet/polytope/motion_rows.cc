@@ -18,6 +18,13 @@ void add_multiplier(const EquilibriumProblem& problem, int bound, double value, 
 
 }  // namespace
 
+Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::BlockStructure& structure,
+                             std::span<const double> y) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(problem.equations());
+  for (std::size_t i = 0; i < y.size(); ++i) result[structure.equation_of_place()[i]] = y[i];
+  return result;
+}
+
 void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
   polytope.motion.setZero(problem.disks, 3);
   const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),

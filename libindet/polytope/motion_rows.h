@@ -1,13 +1,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
+#include "libindet/barrier/block_structure.h"
 #include "libindet/equilibrium/equilibrium_problem.h"
 #include "libindet/exact/contact_problem.h"
 #include "libindet/polytope/force_polytope.h"
 
 namespace indet {
+
+/// Multipliers of a structure's rows, in its order, as a motion of all equations: 0 in those that it leaves
+/// out.
+Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::BlockStructure& structure,
+                             std::span<const double> y);
 
 /// Spreads a motion of the equations' rows over disks, walls, the cell and bounds; largest entry 1.
 void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope);

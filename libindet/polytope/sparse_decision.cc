@@ -58,14 +58,6 @@ Equations examine(const EquilibriumProblem& problem) {
   return result;
 }
 
-/// A vector of the structure's rows, on all equations.
-Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const BlockStructure& structure,
-                             std::span<const double> y) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(problem.equations());
-  for (std::size_t i = 0; i < y.size(); ++i) result[structure.equation_of_place()[i]] = y[i];
-  return result;
-}
-
 Eigen::VectorXd as_vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }

@@ -119,14 +119,9 @@ class BarrierSearch {
   }
 
   void store(const Target& target, const ValueInterval& interval) {
-    // Multiplying by the unit rounds outwards.
-    const double unit = problem_.units.internal_in_scene();
-    const auto scaled = [&](double bound, double direction) {
-      return std::isinf(bound) ? bound
-                               : bound * unit + direction * unit * (4 * kRoundoff * std::abs(bound) + kTiny);
-    };
-    double lower = interval.lower == 0 && interval.upper == 0 ? 0 : scaled(interval.lower, -1);
-    double upper = interval.lower == 0 && interval.upper == 0 ? 0 : scaled(interval.upper, 1);
+    const bool is_zero = interval.lower == 0 && interval.upper == 0;
+    auto [lower, upper] =
+        is_zero ? barrier::ValueBounds{0, 0} : in_scene_units({interval.lower, interval.upper}, problem_);
     if (target.sign < 0) {
       std::swap(lower, upper);
       lower = -lower;
@@ -172,6 +167,12 @@ BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& p
                                   const std::vector<int>& contacts, bool reactions,
                                   const IntervalOptions& options) {
   return BarrierSearch(packing, polytope, contacts, reactions, options).run();
+}
+
+barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem) {
+  const double unit = problem.units.internal_in_scene();
+  const auto room = [&](double bound) { return unit * (4 * kRoundoff * std::abs(bound) + kTiny); };
+  return {bounds.lower * unit - room(bounds.lower), bounds.upper * unit + room(bounds.upper)};
 }
 
 EnclosedValue enclosed_value(double lower, double upper, double gap, double weight) {

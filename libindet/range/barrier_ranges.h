@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "libindet/barrier/verified_equations.h"
 #include "libindet/packing/packing.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/enclosure.h"
@@ -25,6 +26,9 @@ struct BarrierRanges {
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
                                   const std::vector<int>& contacts, bool reactions,
                                   const IntervalOptions& options);
+
+/// Bounds in the unit of a problem, in the scene's: rounded outwards.
+barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem);
 
 /// What an interval is as a result: its middle is the value; it is enclosed if it is no wider than asked for.
 struct EnclosedValue {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "libindet/base/error.h"
-#include "libindet/base/rounding_bounds.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/polytope/central_polytope.h"
+#include "libindet/polytope/motion_rows.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/sensitivity.h"
 
@@ -32,8 +32,8 @@ class DeterminedForces {
     double sensitivity = 0;
     if (!objective.empty()) {
       const std::vector<double> y = central_.equations->nearest_multipliers(objective);
-      bounds = in_scene_units(central_.equations->enclose_everywhere(objective, y));
-      sensitivity = sensitivity_to_normals(problem_, motion(y), centre_);
+      bounds = in_scene_units(central_.equations->enclose_everywhere(objective, y), problem_);
+      sensitivity = sensitivity_to_normals(problem_, on_equations(problem_, central_.structure, y), centre_);
     }
     const double size = std::max(problem_.units.weight_in_scene(), std::abs(bounds.lower));
     const bool is_narrow = bounds.upper - bounds.lower <= tolerance::kDeterminedInterval * size;
@@ -50,20 +50,6 @@ class DeterminedForces {
  private:
   bool is_counted(Eigen::Index contact, int column) const {
     return ranges_.extrema.claim(contact, column) == Outcome::kEnclosed;
-  }
-
-  /// Multiplying by the unit rounds outwards.
-  barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds) const {
-    const double unit = problem_.units.internal_in_scene();
-    const auto room = [&](double bound) { return unit * (4 * kRoundoff * std::abs(bound) + kTiny); };
-    return {bounds.lower * unit - room(bounds.lower), bounds.upper * unit + room(bounds.upper)};
-  }
-
-  Eigen::VectorXd motion(const std::vector<double>& y) const {
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(problem_.equations());
-    const std::vector<int>& equations = central_.structure.equation_of_place();
-    for (std::size_t place = 0; place < y.size(); ++place) result[equations[place]] = y[place];
-    return result;
   }
 
   const EquilibriumProblem& problem_;

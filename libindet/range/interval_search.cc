@@ -11,6 +11,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/polytope/central_polytope.h"
+#include "libindet/polytope/motion_rows.h"
 #include "libindet/range/sensitivity.h"
 
 namespace indet {
@@ -106,9 +107,7 @@ class IntervalSearch {
 
   double sensitivity(const std::vector<double>& x, std::span<const double> y) const {
     const EquilibriumProblem& problem = polytope_.problem;
-    Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem.equations());
-    const std::vector<int>& equations = central_.structure.equation_of_place();
-    for (std::size_t place = 0; place < y.size(); ++place) motion[equations[place]] = y[place];
+    const Eigen::VectorXd motion = on_equations(problem, central_.structure, y);
     const Eigen::Map<const Eigen::VectorXd> strengths(x.data(), static_cast<Eigen::Index>(x.size()));
     return sensitivity_to_normals(problem, motion, problem.units.scene(problem.state(strengths)));
   }

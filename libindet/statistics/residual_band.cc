@@ -6,11 +6,10 @@
 #include <numeric>
 #include <vector>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet {
 namespace {
-
-/// Rounding in the products below does not cost a rank.
-constexpr double kWholeNumber = 1e-9;
 
 double mean_residual(std::span<const double> values) {
   return values.empty()
@@ -21,12 +20,13 @@ double mean_residual(std::span<const double> values) {
 }  // namespace
 
 int fewest_for_conformal(double coverage) {
-  return static_cast<int>(std::ceil(coverage / (1 - coverage) - kWholeNumber));
+  return static_cast<int>(std::ceil(coverage / (1 - coverage) - tolerance::kWholeNumber));
 }
 
 ResidualBand conformal_band(std::span<const double> residuals, double coverage) {
   const auto count = static_cast<double>(residuals.size());
-  const auto n = static_cast<std::ptrdiff_t>(std::floor((1 - coverage) * (count + 1) + kWholeNumber));
+  const auto n =
+      static_cast<std::ptrdiff_t>(std::floor((1 - coverage) * (count + 1) + tolerance::kWholeNumber));
   const double centre = mean_residual(residuals);
   const double mirror = (count + 1) / (count - 1);
   std::vector<double> above, below;

@@ -10,12 +10,12 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/verify/affine_hull.h"
-#include "libindet/verify/cell_motion_check.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/draws_check.h"
 #include "libindet/verify/enclosed_check.h"
 #include "libindet/verify/estimate_check.h"
 #include "libindet/verify/kept_states_check.h"
+#include "libindet/verify/motion_check.h"
 #include "libindet/verify/needed_equations.h"
 #include "libindet/verify/predictions_check.h"
 #include "libindet/verify/reactions_check.h"
@@ -32,7 +32,7 @@ class Verifier {
   Verification run() {
     check_problem();
     check_kept_states(ranges_, compare_);
-    if (ranges_.status == PolytopeStatus::kEmpty) check_motion();
+    if (ranges_.status == PolytopeStatus::kEmpty) check_motion(packing_, ranges_, problem_, compare_);
     check_states();
     check_rays();
     check_objectives();
@@ -78,42 +78,6 @@ class Verifier {
       compare_.equal_count(ranges_.nullity, *nullity, "nullity");
     else
       compare_.leave_unchecked("nullity (a singular value is near to 0, and the packing is large)");
-  }
-
-  void check_motion() {
-    if (!compare_.require(ranges_.motion.rows() == packing_.disk_count(), "motion: {} rows for {} disks",
-                          ranges_.motion.rows(), packing_.disk_count())) {
-      return;
-    }
-    for (int i = 0; i < packing_.disk_count(); ++i) {
-      compare_.require(!packing_[DiskId(i)].fixed || ranges_.motion.row(i).isZero(0),
-                       "motion: disk {} is fixed, but moves", packing_[DiskId(i)].id);
-    }
-    const bool walls_move = ranges_.wall_motion.rows() > 0;
-    if (!compare_.require(!walls_move || ranges_.wall_motion.rows() == packing_.wall_count(),
-                          "wall_motion: {} rows for {} walls", ranges_.wall_motion.rows(),
-                          packing_.wall_count())) {
-      return;
-    }
-    for (int w = 0; walls_move && w < packing_.wall_count(); ++w) {
-      const Wall& wall = packing_[WallId(w)];
-      const bool is_held = (std::isnan(wall.load_n) && ranges_.wall_motion(w, 0) != 0) ||
-                           (std::isnan(wall.load_t) && ranges_.wall_motion(w, 1) != 0);
-      compare_.require(!is_held, "wall_motion: wall {} moves where it is not free", wall.id);
-    }
-    if (!check_cell_motion(packing_, ranges_, compare_)) return;
-    const Eigen::VectorXd motion =
-        problem_.flat_motion(ranges_.motion, ranges_.wall_motion, ranges_.cell_motion);
-    const auto bounds = static_cast<Eigen::Index>(force_bounds(packing_).size());
-    if (!compare_.require(ranges_.bound_multipliers.size() == bounds, "bound_multipliers: {} for {} bounds",
-                          ranges_.bound_multipliers.size(), bounds)) {
-      return;
-    }
-    const double power = problem_.load_power(motion) + problem_.bounds_power(ranges_.bound_multipliers);
-    const double resisted = problem_.smallest_power(motion, ranges_.bound_multipliers);
-    compare_.require(power > 0, "motion: the load does no work ({})", power);
-    compare_.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})",
-                     resisted);
   }
 
   Eigen::VectorXd state(Eigen::Index k) const {

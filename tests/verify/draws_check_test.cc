@@ -73,7 +73,7 @@ TEST_F(DrawsCheck, TellsAnotherStateFromTheCentre) {
   EXPECT_THAT(first_message(check(wrong)), HasSubstr("centre: the analytic centre is elsewhere"));
 }
 
-TEST(DrawsChecks, FindNothingWrongInPiles) {
+TEST_F(DrawsCheck, FindsNothingWrongInPiles) {
   int drawn = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Packing pile = zoo::random_pile(seed, 40, 0.3);
