@@ -250,7 +250,8 @@ void print_quality(const ForceRanges& ranges) {
     fmt::print("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
                kTurn * firm.sensitivity);
   const int unique = ranges.unique.cast<int>().sum();
-  const bool had_choice = !ranges.reason.empty() && ranges.state_kind == StateChoice::Kind::kNone;
+  const bool had_choice = !ranges.reason.empty() && (ranges.method == Method::kBarrier ||
+                                                     ranges.state_kind == StateChoice::Kind::kNone);
   if (had_choice) fmt::print("method {}: {}\n", to_string(ranges.method), ranges.reason);
   if (has_estimates) return fmt::print("found by {}\n", describe_method(ranges));
   fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
@@ -324,12 +325,10 @@ int run(const AnalyzeCommand& options, const Context& context) {
     analysis.gap = *options.gap;
     analysis.method = Method::kBarrier;  // intervals are wanted
   }
-  if (analysis.method == Method::kBarrier &&
-      (options.arguments.states == "canonical" || options.arguments.states == "solver" ||
-       options.arguments.states_of != "all"))
+  if (analysis.method == Method::kBarrier && options.arguments.states == "solver")
     throw UsageError(
-        "--method barrier finds no extremal states; leave --extremal-states and --states-of out, or take "
-        "--method lp");
+        "--method barrier lands inside of optimal faces and not on extremal states; take --extremal-states "
+        "canonical, or --method lp");
   if (analysis.method == Method::kBarrier && is_exact(options.arguments))
     throw UsageError(
         "--accuracy exact starts from the vertices of --method lp, and --method barrier has none");
@@ -373,9 +372,10 @@ Command add_analyze(CLI::App& root) {
           "--method", options->method,
           "How the extrema are found. lp: by linear programs; pivoting-paper: by the paper's walk from one "
           "extremal point to the next, as published; pivoting-tableau: by the same walk, made fast; barrier: "
-          "no "
-          "extremal states, but a proven interval of each value, by an interior point method, which is the "
-          "fastest for large packings; auto: lp, or barrier where no states are wanted and it is faster")
+          "a "
+          "proven interval of each value, and extremal states where --extremal-states or --states-of ask for "
+          "them, by an interior point method, which is the fastest for large packings; auto: lp, or barrier "
+          "where it is faster")
       ->check(CLI::IsMember(method_names))
       ->capture_default_str();
   command

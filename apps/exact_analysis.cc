@@ -12,6 +12,7 @@ ForceRanges analyze_exactly(const Packing& packing, AnalyzeOptions analysis, con
   const StateChoice kept = limited(analysis.states, packing.contact_count());
   analysis.states = {.kind = kept.kind == StateChoice::Kind::kNone ? StateChoice::Kind::kSolver : kept.kind,
                      .within_limit = false};
+  if (!analysis.method) analysis.method = Method::kLp;  // exact proofs start from its vertices
   const ForceRanges ranges = analyze(packing, analysis);
   const auto start = std::chrono::steady_clock::now();
   ExactCheckOptions options;

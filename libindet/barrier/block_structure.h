@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "libindet/equilibrium/equilibrium_problem.h"
@@ -58,6 +59,12 @@ class BlockStructure {
   const std::vector<int>& place_of_equation() const { return place_of_equation_; }
   /// b, by places.
   const std::vector<double>& load() const { return load_; }
+  /// The same with another b.
+  BlockStructure with_load(std::vector<double> load) const {
+    BlockStructure other = *this;
+    other.load_ = std::move(load);
+    return other;
+  }
 
   const std::vector<Group>& groups() const { return groups_; }
   const std::vector<Touch>& touches() const { return touches_; }

@@ -60,7 +60,7 @@ struct Iterate {
 /// `keep_on` is asked once an iteration; if it says no the run ends at once.
 struct LockStepCalls {
   std::function<std::optional<std::size_t>()> next;
-  std::function<const Objective&(std::size_t)> objective;
+  std::function<Objective(std::size_t)> objective;
   std::function<void(const Iterate&)> finish;
   std::function<bool()> keep_on;
 };

@@ -451,6 +451,14 @@ inline constexpr double kOpeningPower = 1e-9;
 /// What is left of Aᵀ y + s = c becomes part of s if it is smaller than this share of it.
 inline constexpr double kAbsorbedDualResidual = 1e-3;
 
+/// Strengths and reduced costs of a basis are refined until the equations hold to this, relative to the
+/// largest load or cost.
+inline constexpr double kVertexRounding = 1e-13;
+/// An entry of a direction along an edge of the polytope that is smaller than this stays as it is.
+inline constexpr double kVertexPivot = 1e-7;
+/// Steps from the basis that the interior point method proposes to the best one; most need none.
+inline constexpr int kMostVertexSteps = 200;
+
 /// An objective whose gap has not fallen below this share of the smallest before, in so many iterations, is
 /// given up with what it has.
 inline constexpr double kProgress = 0.9;

@@ -15,6 +15,7 @@
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/barrier_ranges.h"
+#include "libindet/range/central_states.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/estimated_ranges.h"
 #include "libindet/range/extrema.h"
@@ -24,8 +25,10 @@
 namespace indet {
 namespace {
 
-/// Contacts from which the barrier method is the faster one for values (docs/decisions/barrier-method.md).
+/// Contacts from which the barrier method is the faster one for values, and for canonical states too
+/// (docs/decisions/barrier-method.md).
 constexpr int kFewestForBarrier = 200;
+constexpr int kFewestForCentralStates = 500;
 
 /// Adds the time since the last mark to a stage.
 class Stopwatch {
@@ -75,13 +78,13 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
   return search;
 }
 
-IntervalOptions interval_options(const AnalyzeOptions& options) {
+IntervalOptions interval_options(const AnalyzeOptions& options, const char* stage) {
   IntervalOptions intervals;
   intervals.gap = options.gap;
   intervals.threads = options.threads;
   if (options.progress) {
-    intervals.progress = [&options](std::int64_t settled, std::int64_t total) {
-      return options.progress({"force ranges", settled, total, {}});
+    intervals.progress = [&options, stage](std::int64_t settled, std::int64_t total) {
+      return options.progress({stage, settled, total, {}});
     };
   }
   return intervals;
@@ -151,12 +154,34 @@ void require_centre(const ForcePolytope& polytope) {
                    "standard finds them");
 }
 
+/// What the barrier method keeps. Who asks for it by name asks for intervals, unless states are asked for,
+/// too; where the level of accuracy would do with those of a solver, canonical ones take their place.
+StateChoice states_by_barrier(StateChoice kept, bool is_asked_for) {
+  if (!kept.within_limit && kept.kind == StateChoice::Kind::kSolver)
+    throw InputError(
+        "the barrier method lands inside of optimal faces and not on extremal states; canonical ones are "
+        "found, or --method lp finds those of a solver");
+  if (kept.kind == StateChoice::Kind::kSolver) kept.kind = StateChoice::Kind::kCanonical;
+  if (is_asked_for && kept.within_limit && kept.keeps_all()) kept.kind = StateChoice::Kind::kNone;
+  return kept;
+}
+
+Table4<double> middles(const Enclosures& enclosures) {
+  return enclosures.lower + (enclosures.upper - enclosures.lower) / 2;
+}
+
 }  // namespace
 
-MethodChoice choose_method(int contacts, bool wants_states) {
-  if (wants_states) return {Method::kLp, "extremal states are wanted"};
-  if (contacts < kFewestForBarrier) return {Method::kLp, "a small packing"};
-  return {Method::kBarrier, "a large packing, and no extremal states are wanted"};
+MethodChoice choose_method(int contacts, const StateChoice& states) {
+  using Kind = StateChoice::Kind;
+  if (states.kind == Kind::kNone) {
+    if (contacts < kFewestForBarrier) return {Method::kLp, "a small packing"};
+    return {Method::kBarrier, "a large packing, and no extremal states are wanted"};
+  }
+  if (states.kind == Kind::kSolver && !states.within_limit)
+    return {Method::kLp, "the extremal states on which a solver lands are wanted"};
+  if (contacts < kFewestForCentralStates) return {Method::kLp, "extremal states are wanted"};
+  return {Method::kBarrier, "a large packing"};
 }
 
 Formulation choose_formulation(int dim) {
@@ -171,18 +196,19 @@ AnalyzeOptions options_for(Accuracy accuracy) {
 }
 
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
-  const StateChoice kept = limited(options.states, packing.contact_count());
+  StateChoice kept = limited(options.states, packing.contact_count());
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
-  MethodChoice choice = options.method
-                            ? MethodChoice{*options.method, ""}
-                            : choose_method(packing.contact_count(), kept.kind != StateChoice::Kind::kNone);
+  MethodChoice choice =
+      options.method ? MethodChoice{*options.method, ""} : choose_method(packing.contact_count(), kept);
+  if (choice.method == Method::kBarrier) kept = states_by_barrier(kept, options.method.has_value());
   if (options.estimate) choice.method = Method::kBarrier;
   ForcePolytope polytope = find_polytope(packing, options, choice);
   if (options.estimate && polytope.status != PolytopeStatus::kEmpty) {
     require_centre(polytope);
     stopwatch.mark("polytope");
-    ForceRanges ranges = estimate_ranges(packing, polytope, *options.estimate, interval_options(options));
+    ForceRanges ranges =
+        estimate_ranges(packing, polytope, *options.estimate, interval_options(options, "force ranges"));
     stopwatch.mark("estimates");
     ranges.seconds = std::move(seconds);
     return ranges;
@@ -191,10 +217,17 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
-    BarrierRanges found =
-        find_barrier_ranges(packing, polytope, contacts, options.reactions, interval_options(options));
+    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, options.reactions,
+                                              interval_options(options, "force ranges"));
     found.extrema.reason = std::move(choice.reason);
     stopwatch.mark("ranges");
+    if (kept.kind == StateChoice::Kind::kCanonical && polytope.central) {
+      add_canonical_states(
+          packing, polytope, kept,
+          kept.keeps_all() ? contacts : contacts_with_states(kept, middles(found.enclosures)),
+          interval_options(options, "extremal states"), found);
+      stopwatch.mark("states");
+    }
     ForceRanges ranges =
         assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
     ranges.reactions = std::move(found.reactions);

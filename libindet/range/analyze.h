@@ -45,17 +45,18 @@ AnalyzeOptions options_for(Accuracy accuracy);
 
 /// The ranges of all contact forces of a packing: from equilibrium problem to measures, each value with its
 /// residuals. Precondition: find_defect(packing) is empty. Throws InputError if the choice of states has a
-/// defect, or if estimates are wanted of a polytope that has no analytic centre, because it is unbounded or
-/// too thin, or of one that rounding decides about; Interrupted, LibraryError.
+/// defect, if kBarrier is to keep those of a solver, or if estimates are wanted of a polytope that has no
+/// analytic centre, because it is unbounded or too thin, or of one that rounding decides about; Interrupted,
+/// LibraryError.
 ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options = {});
 
-/// The method for a packing with this number of contacts, and why: kBarrier where no extremal states are
-/// wanted and it is the faster one, else kLp (docs/decisions/barrier-method.md).
+/// The method for a packing with this number of contacts, and why: kBarrier where it is the faster one for
+/// values, or for values and canonical states, else kLp (docs/decisions/barrier-method.md).
 struct MethodChoice {
   Method method = Method::kLp;
   std::string reason;
 };
-MethodChoice choose_method(int contacts, bool wants_states);
+MethodChoice choose_method(int contacts, const StateChoice& states);
 
 /// The formulation that is fastest for a block of this dimension (docs/decisions/formulation.md).
 Formulation choose_formulation(int dim);

@@ -77,8 +77,9 @@ void check_enclosed(const Packing& packing, const ForceRanges& ranges, const Pro
                      fmt::format("reactions: {} of row {}", end == 0 ? "minimum" : "maximum", k), compare);
     }
   }
+  if (ranges.enclosed == 0) return;
   const bool is_small = ranges.unknowns <= tolerance::kMostForPrograms;
-  if (is_small && ranges.enclosed > 0) check_by_programs(packing, ranges, progress, compare);
+  if (is_small) check_by_programs(packing, ranges, progress, compare);
   compare.leave_unchecked(
       is_small ? fmt::format(
                      "that intervals hold their values, but for those of {} contacts, which linear programs "

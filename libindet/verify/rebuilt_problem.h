@@ -26,6 +26,7 @@ class RebuiltProblem {
   std::optional<int> nullity_by_inertia(double threshold) const;
   const Eigen::MatrixXd& kernel() const;  ///< 2M × d, orthonormal
   int contact_count() const { return packing_.contact_count(); }
+  bool has_friction(int contact) const { return packing_[ContactId(contact)].mu > 0; }
   const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }  ///< c [15]
   const std::vector<int>& held() const { return held_; }  ///< components of forces that are given
   double force_unit() const { return force_unit_; }

@@ -78,8 +78,7 @@ class Barrier(program.ProgramTest):
 
     def test_options_that_do_not_go_together(self):
         for options, text in [(["--method", "lp", "--gap", "1e-3"], "--gap has no effect"),
-                              (["--method", "barrier", "--extremal-states", "canonical"], "no extremal states"),
-                              (["--method", "barrier", "--states-of", "largest:3"], "no extremal states"),
+                              (["--method", "barrier", "--extremal-states", "solver"], "inside of optimal faces"),
                               (["--method", "barrier", "--accuracy", "exact"], "starts from the vertices"),
                               (["--method", "barrier", "--gap", "0"], "--gap")]:
             with self.subTest(options):
@@ -97,6 +96,28 @@ class Barrier(program.ProgramTest):
     def test_a_gap_asks_for_intervals(self):
         found = json.loads(self.run_indet("--json", "analyze", "p.h5", "-o", "g.h5", "--gap", "1e-3").stdout)
         self.assertEqual(found["method"], "barrier")
+
+    def test_extremal_states_are_those_of_linear_programs(self):
+        self.analyze("l.h5", "--method", "lp")
+        self.analyze("b.h5", "--method", "barrier", "--extremal-states", "canonical")
+        lp, barrier = self.open("l.h5"), self.open("b.h5")
+        self.assertTrue((barrier["ranges/outcome"][()] == 0).all())
+        for name in ["d_R", "d_T", "R_max", "T_min"]:
+            np.testing.assert_allclose(barrier["ranges/" + name][()], lp["ranges/" + name][()], rtol=1e-9, atol=1e-9)
+        for name in ["vertex", "unique"]:
+            np.testing.assert_array_equal(barrier["ranges/" + name][()], lp["ranges/" + name][()])
+        np.testing.assert_array_equal(barrier["extremal/active"][()], lp["extremal/active"][()])
+        text = self.run_indet("verify", "b.h5").stdout
+        self.assertIn("0 contradictions", text)
+        self.assertIn("certified values, optimal but for gaps up to", text)
+
+    def test_extremal_states_of_some_contacts(self):
+        self.analyze("b.h5", "--method", "barrier", "--states-of", "3,5")
+        file = self.open("b.h5")
+        kept = (file["ranges/vertex"][()] >= 0).all(axis=1)
+        self.assertEqual(list(np.flatnonzero(kept)), [3, 5])
+        np.testing.assert_array_equal(np.isfinite(file["ranges/d_R"][()]), kept)
+        self.assertIn("0 contradictions", self.run_indet("verify", "b.h5").stdout)
 
     def test_a_sample_of_contacts(self):
         self.analyze("b.h5", "--method", "barrier", "--contacts", "3,5-7")

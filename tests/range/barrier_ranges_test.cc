@@ -132,6 +132,78 @@ TEST(BarrierRanges, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
+ForceRanges with_states(Method method, const Packing& packing, int threads = 1) {
+  AnalyzeOptions options;
+  options.method = method;
+  options.threads = threads;
+  options.states.within_limit = false;
+  return analyze(packing, options);
+}
+
+/// The same canonical states, by the same half-planes. Returns how many values have none.
+int expect_same_states(const ForceRanges& lp, const ForceRanges& barrier) {
+  EXPECT_EQ(barrier.certified, lp.certified);
+  int without = 0;
+  for (Eigen::Index i = 0; i < lp.value.rows(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      SCOPED_TRACE("contact " + std::to_string(i) + ", " + to_string(static_cast<Column>(column)));
+      const int row = barrier.vertex(i, column);
+      if (row < 0) {
+        ++without;
+        continue;
+      }
+      EXPECT_EQ(barrier.outcome(i, column), Outcome::kOptimal);
+      EXPECT_NEAR(barrier.value(i, column), lp.value(i, column), 1e-9 * lp.force_unit);
+      EXPECT_LE(barrier.lower(i, column), barrier.value(i, column));
+      EXPECT_GE(barrier.upper(i, column), barrier.value(i, column));
+      const Eigen::VectorXd known = lp.states.row(lp.vertex(i, column));
+      const Eigen::VectorXd found = barrier.states.row(row);
+      EXPECT_LE((known - found).norm(), 1e-9 * known.norm());
+      EXPECT_EQ(barrier.active.cols(), barrier.dim);
+    }
+  }
+  return without;
+}
+
+TEST(BarrierRanges, HaveTheCanonicalStatesOfLinearPrograms) {
+  int values = 0;
+  int without = 0;
+  std::vector<Packing> packings = small_packings();
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+    packings.push_back(zoo::random_pile(seed, 4 + 2 * static_cast<int>(seed), seed % 3 == 0 ? -1 : 0.4));
+  for (std::size_t k = 0; k < packings.size(); ++k) {
+    SCOPED_TRACE(k);
+    const ForceRanges barrier = with_states(Method::kBarrier, packings[k]);
+    if (barrier.method != Method::kBarrier || barrier.status == PolytopeStatus::kEmpty) continue;
+    values += static_cast<int>(barrier.objectives);
+    without += expect_same_states(with_states(Method::kLp, packings[k]), barrier);
+  }
+  EXPECT_GT(values, 400);
+  EXPECT_LE(without, values / 200);
+}
+
+TEST(BarrierRanges, KeepTheStatesThatAreAskedFor) {
+  const Packing packing = bounded_pile();
+  AnalyzeOptions options;
+  options.method = Method::kBarrier;
+  EXPECT_EQ(analyze(packing, options).states.rows(), 0);  // intervals are asked for
+  options.states.contacts = StateChoice::Contacts::kLargest;
+  options.states.largest = 2;
+  const ForceRanges ranges = analyze(packing, options);
+  EXPECT_EQ(ranges.state_contacts.size(), 2);
+  EXPECT_GT(ranges.states.rows(), 0);
+  EXPECT_LE(ranges.states.rows(), 8);
+  EXPECT_EQ(ranges.d_R.array().isFinite().count(), 2);
+  const ForceRanges all = with_states(Method::kBarrier, packing);
+  for (const int contact : ranges.state_contacts) EXPECT_EQ(ranges.d_R[contact], all.d_R[contact]);
+  const ForceRanges threads = with_states(Method::kBarrier, packing, 3);
+  EXPECT_TRUE(all.states == threads.states);
+  EXPECT_TRUE((all.vertex == threads.vertex).all());
+  options.states.kind = StateChoice::Kind::kSolver;
+  options.states.within_limit = false;
+  EXPECT_THROW(analyze(packing, options), InputError);
+}
+
 TEST(BarrierRanges, StopWhenAsked) {
   AnalyzeOptions options;
   options.method = Method::kBarrier;
@@ -139,11 +211,18 @@ TEST(BarrierRanges, StopWhenAsked) {
   EXPECT_THROW(analyze(bounded_pile(), options), Interrupted);
 }
 
-TEST(MethodChoice, TakesTheBarrierMethodForLargePackingsWithoutStates) {
-  EXPECT_EQ(choose_method(10000, true).method, Method::kLp);
-  EXPECT_EQ(choose_method(100, false).method, Method::kLp);
-  EXPECT_EQ(choose_method(10000, false).method, Method::kBarrier);
-  EXPECT_FALSE(choose_method(10000, false).reason.empty());
+TEST(MethodChoice, TakesTheBarrierMethodForLargePackings) {
+  using Kind = StateChoice::Kind;
+  const auto method_for = [](int contacts, Kind kind, bool within_limit = true) {
+    return choose_method(contacts, {.kind = kind, .within_limit = within_limit}).method;
+  };
+  EXPECT_EQ(method_for(100, Kind::kNone), Method::kLp);
+  EXPECT_EQ(method_for(300, Kind::kNone), Method::kBarrier);
+  EXPECT_EQ(method_for(300, Kind::kCanonical), Method::kLp);
+  EXPECT_EQ(method_for(10000, Kind::kCanonical), Method::kBarrier);
+  EXPECT_EQ(method_for(10000, Kind::kSolver), Method::kBarrier);
+  EXPECT_EQ(method_for(10000, Kind::kSolver, false), Method::kLp);
+  EXPECT_FALSE(choose_method(10000, {}).reason.empty());
 }
 
 TEST(MethodChoice, FallsBackOnLinearProgramsWhereForcesAreUnbounded) {

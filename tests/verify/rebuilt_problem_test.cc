@@ -5,7 +5,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "libindet/range/analyze.h"
 #include "libindet/verify/rebuilt_ellipsoid.h"
+#include "libindet/verify/sparse_optimality.h"
 #include "tests/support/periodic_lattice.h"
 #include "tests/support/zoo.h"
 
@@ -46,6 +48,32 @@ void expect_the_ellipsoid_of_the_kernel(const Packing& packing, const Eigen::Vec
     const double width = factor.matrixL().solve(Z.row(k).transpose()).norm();
     EXPECT_NEAR(ellipsoid->width(k), width, 1e-9 * (1 + width)) << "component " << k;
   }
+}
+
+/// By the half-planes of an extremum's own state, and by those of other extrema.
+TEST(SparseOptimality, AgreesWithTheKernel) {
+  int optimal = 0;
+  for (const Packing& packing :
+       {zoo::pyramid(0.8, 1, 1), zoo::wedge(0.4, 0.3), zoo::column(9, 0.4, 0.3), zoo::random_pile(4, 12, 0.4),
+        zoo::random_pile(6, 12, -1), zoo::random_pile(7, 12, -1), zoo::lattice_pile(4, 0.6)}) {
+    const ForceRanges ranges = analyze(packing);
+    const RebuiltProblem problem(packing);
+    for (int contact = 0; contact < packing.contact_count(); ++contact) {
+      for (const int column : {kMaxR, kMaxT}) {
+        for (const int other : {contact, (contact + 7) % packing.contact_count()}) {
+          const int row = ranges.vertex(other, column);
+          if (row < 0) continue;
+          const std::vector<int> active(ranges.active.row(row).begin(), ranges.active.row(row).end());
+          const int component = 2 * contact + (column == kMaxT ? 1 : 0);
+          const double gap = sparse_optimality_gap(problem, component, 1, active);
+          const bool is_optimal = problem.optimality_gap(component, 1, active) < 1e-9;
+          EXPECT_EQ(gap < 1e-9, is_optimal) << contact << " " << column << " " << other << " " << gap;
+          optimal += is_optimal ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(optimal, 50);
 }
 
 TEST(RebuiltEllipsoid, IsThatOfTheKernel) {
