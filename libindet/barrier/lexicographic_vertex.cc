@@ -123,18 +123,22 @@ class Descent {
 
 std::optional<LexicographicVertex> find_lexicographic_vertex(BasisVertex& basis,
                                                              std::span<const std::vector<double>> functionals,
-                                                             std::span<const double> generic_load, double tie,
+                                                             std::span<const double> generic_load,
                                                              int& steps) {
-  if (!Descent(basis, functionals, generic_load, tie, steps).run()) return {};
-  std::vector<double> costs = functionals.front();
-  LexicographicVertex vertex{basis.x(), basis.price(costs), basis.closed()};
-  for (double& strength : vertex.x) strength = std::max(strength, 0.0);
-  double least = kInfinity;
-  for (const int column : vertex.closed) least = std::min(least, costs[static_cast<std::size_t>(column)]);
-  vertex.dual_residual = std::max(0.0, -least);
-  if (vertex.dual_residual > tolerance::kDualResidual) return {};
-  vertex.is_unique = least > tolerance::kReducedCost;
-  return vertex;
+  // Steps on an optimal face can add up what was taken for 0.
+  for (const double share : {1.0, 0.1, 0.01}) {
+    if (!Descent(basis, functionals, generic_load, share * tolerance::kReducedCost, steps).run()) return {};
+    std::vector<double> costs = functionals.front();
+    LexicographicVertex vertex{basis.x(), basis.price(costs), basis.closed()};
+    double least = kInfinity;
+    for (const int column : vertex.closed) least = std::min(least, costs[static_cast<std::size_t>(column)]);
+    if (least < -tolerance::kReducedCost) continue;
+    for (double& strength : vertex.x) strength = std::max(strength, 0.0);
+    vertex.dual_residual = std::max(0.0, -least);
+    vertex.is_unique = least > tolerance::kReducedCost;
+    return vertex;
+  }
+  return {};
 }
 
 }  // namespace indet::barrier

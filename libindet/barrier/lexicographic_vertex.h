@@ -19,7 +19,7 @@ struct LexicographicVertex {
 };
 
 /// Goes from a basis to the best one by the simplex method with Dantzig's rule: of the first functional, then
-/// on its optimal face of the second, and so on; reduced costs up to `tie` count as 0.
+/// on its optimal face of the second, and so on; reduced costs up to tolerance::kReducedCost count as 0.
 /// `generic_load` is b a little away from where vertices are degenerate: with it each step makes the
 /// functional smaller, so that no basis comes twice. What is then infeasible with b itself is mended by the
 /// dual simplex method. `functionals`: one weight a column. Nothing if the basis is not feasible or becomes
@@ -27,7 +27,7 @@ struct LexicographicVertex {
 /// functional is not proven least in the end. Adds its steps to `steps`.
 std::optional<LexicographicVertex> find_lexicographic_vertex(BasisVertex& basis,
                                                              std::span<const std::vector<double>> functionals,
-                                                             std::span<const double> generic_load, double tie,
+                                                             std::span<const double> generic_load,
                                                              int& steps);
 
 }  // namespace indet::barrier

@@ -11,7 +11,6 @@
 #include "libindet/barrier/lexicographic_vertex.h"
 #include "libindet/base/random.h"
 #include "libindet/base/rounding_bounds.h"
-#include "libindet/base/tolerances.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/range/attained_values.h"
@@ -29,12 +28,9 @@ struct Round {
   double gap = 0;        ///< of the interior point method
   double shift = 0;      ///< of b: as if strengths of the centre grew by up to this share
   double least_aim = 0;  ///< LockStepOptions::least_aim
-  double tie = 0;        ///< of find_lexicographic_vertex
 };
-constexpr Round kRounds[] = {{1e-7, 1e-12, 1e-4, 0.01, tolerance::kReducedCost},
-                             {1e-6, 1e-12, 1e-3, 0.1, 0.1 * tolerance::kReducedCost},
-                             {1e-5, 1e-12, 1e-3, 0.1, 0.01 * tolerance::kReducedCost},
-                             {1e-4, 1e-12, 1e-2, 0.1, 0.01 * tolerance::kReducedCost}};
+constexpr Round kRounds[] = {
+    {1e-8, 1e-12, 1e-4, 0.01}, {1e-7, 1e-12, 1e-3, 0.1}, {1e-5, 1e-12, 1e-3, 0.1}, {1e-4, 1e-12, 1e-2, 0.1}};
 constexpr double kTieBreak = 1e-2;  ///< weight of the generic functional beside ΣR
 
 /// A value and the objective whose least value it is, up to its sign.
@@ -103,8 +99,7 @@ class StateSearch {
                       .objective = [&](std::size_t t) { return objective_of(targets_[t], round.delta); },
                       .finish =
                           [&](const barrier::Iterate& iterate) {
-                            settle(iterate, objective_of(targets_[iterate.objective], round.delta), shifted,
-                                   round.tie);
+                            settle(iterate, objective_of(targets_[iterate.objective], round.delta), shifted);
                           },
                       .keep_on = [&] { return keep_on(); }});
   }
@@ -135,7 +130,7 @@ class StateSearch {
 
   /// Takes the columns of largest x / s as the basis.
   void settle(const barrier::Iterate& iterate, const barrier::Objective& objective,
-              const barrier::BlockStructure& shifted, double tie) {
+              const barrier::BlockStructure& shifted) {
     std::vector<double> rank = barrier::transposed_product(central_.structure, iterate.y);
     for (const auto& [column, weight] : objective) {
       const auto k = static_cast<std::size_t>(column);
@@ -147,7 +142,7 @@ class StateSearch {
     barrier::BasisVertex basis(central_.structure);
     int steps = 0;
     if (basis.set_basis(rank)) {
-      auto vertex = barrier::find_lexicographic_vertex(basis, costs, shifted.load(), tie, steps);
+      auto vertex = barrier::find_lexicographic_vertex(basis, costs, shifted.load(), steps);
       if (vertex) {
         vertices_[iterate.objective] = std::move(vertex);
         ++settled_;
