@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <span>
@@ -88,16 +89,19 @@ IntervalOptions interval_options(const AnalyzeOptions& options) {
 }
 
 /// The polytope in the form that the method works on. Where the barrier method cannot decide, linear programs
-/// do, and they find the values, too, unless F is bounded after all. So they do where F is unbounded, in a
-/// packing that is small enough for their dense matrices.
+/// do, and they find the values, too, unless F is bounded after all. So they do where it cannot prove enough
+/// of an unbounded F, in a packing that is small enough for their dense matrices.
 ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& options, MethodChoice& choice) {
   if (choice.method != Method::kBarrier) return find_force_polytope(packing, options.lp);
   std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
   const bool is_large = 2 * packing.contact_count() > tolerance::kMostForDense;
-  if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded)
+  const bool has_centre = sparse && (sparse->central || sparse->unbounded);
+  if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded && !has_centre)
     choice.reason =
-        "forces are unbounded, for which this method has no values, and the packing is too large for lp";
-  if (sparse && (is_large || sparse->central || sparse->status == PolytopeStatus::kEmpty))
+        "forces are unbounded, the bodies that they press together can still move, for which this method has "
+        "no "
+        "values, and the packing is too large for lp";
+  if (sparse && (is_large || has_centre || sparse->status == PolytopeStatus::kEmpty))
     return std::move(*sparse);
   if (!sparse && is_large)
     throw LibraryError(
@@ -111,6 +115,20 @@ ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& option
                     (polytope.status == PolytopeStatus::kBounded ? "too thin" : to_string(polytope.status));
   }
   return polytope;
+}
+
+/// Values of an unbounded F that the barrier method does not prove, as that of a force which only the exact
+/// equations keep from growing along a ray: linear programs find them all, if they can.
+bool is_left_to_programs(const Packing& packing, const ForcePolytope& polytope, const BarrierRanges& found) {
+  if (!polytope.unbounded || polytope.natural.unknowns() > tolerance::kMostForPrograms) return false;
+  for (Eigen::Index i = 0; i < packing.contact_count(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      const bool is_finite = std::isfinite(found.enclosures.lower(i, column)) &&
+                             std::isfinite(found.enclosures.upper(i, column));
+      if (found.extrema.claim(i, column) == Outcome::kEnclosed && !is_finite) return true;
+    }
+  }
+  return (found.reactions.outcome == Outcome::kFailed).any();
 }
 
 /// The contacts whose ranges are to be found, ascending.
@@ -193,14 +211,20 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (choice.method == Method::kBarrier) {
     BarrierRanges found =
         find_barrier_ranges(packing, polytope, contacts, options.reactions, interval_options(options));
-    found.extrema.reason = std::move(choice.reason);
     stopwatch.mark("ranges");
-    ForceRanges ranges =
-        assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
-    ranges.reactions = std::move(found.reactions);
-    stopwatch.mark("measures");
-    ranges.seconds = std::move(seconds);
-    return ranges;
+    if (!is_left_to_programs(packing, polytope, found)) {
+      found.extrema.reason = std::move(choice.reason);
+      ForceRanges ranges =
+          assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
+      ranges.reactions = std::move(found.reactions);
+      stopwatch.mark("measures");
+      ranges.seconds = std::move(seconds);
+      return ranges;
+    }
+    polytope = find_force_polytope(packing, options.lp);
+    choice = {Method::kLp,
+              "forces are unbounded, and the barrier method does not prove some of the limited ones"};
+    stopwatch.mark("polytope");
   }
   const SearchOptions search = search_options(polytope, options, choice.method);
   Extrema extrema = find_extrema(packing, polytope, contacts, kept, search);
