@@ -245,6 +245,7 @@ std::vector<double> VerifiedEquations::repaired(std::span<const double> x) const
   for (int step = 0; step < 2 && residual > kLargeResidual; ++step) {
     std::vector<double> w = product(structure_, result);
     for (std::size_t i = 0; i < w.size(); ++i) w[i] = structure_.load()[i] - w[i];
+    if (structure_.has_limit()) w[static_cast<std::size_t>(structure_.limit_place())] = 0;
     residual = largest_entry(w);
     cholesky_.solve(w);
     const std::vector<double> along = transposed_product(structure_, w);
@@ -270,6 +271,7 @@ double VerifiedEquations::shift_of(std::span<const double> x) const {
   });
   double sum = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (static_cast<int>(i) == structure_.limit_place()) continue;  // the slack, of any sign, makes up for it
     const double rounding = gamma(row_terms_[i] + 2) * rows[i].size + entry_error_[i] * rows[i].strengths;
     const double residual = std::abs(rows[i].residual) + widen_ * rounding + load_error_[i] + kTiny;
     sum += residual * residual * scale_[i] * scale_[i];
@@ -340,7 +342,8 @@ NearestSolution VerifiedEquations::nearest_solution(std::span<const double> x) c
   const double shift = shift_of(x);
   if (!(shift < kInfinity)) return {kInfinity, 1};
   double share = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
+  const std::size_t strengths = x.size() - (structure_.has_limit() ? 1 : 0);
+  for (std::size_t k = 0; k < strengths; ++k) {
     const double left = x[k] - widen_ * centre_.x[k] * shift;
     if (left < 0) share = std::max(share, -left / (centre_.x[k] * (1 - centre_shift_) - left));
     if (std::isnan(left)) return {kInfinity, 1};

@@ -46,7 +46,7 @@ struct ValueBounds {
 /// The repair is not optional: in the last steps of an iteration ‖b − A x‖ grows, to 0.1 at times.
 ///
 /// *A limit* (block_structure.h) cuts an unbounded set off so that it has a centre, and no bound rests on
-/// it: all hold for the set without it. A point of the part that it leaves is a point of the set. But nothing
+/// it: all hold for the set without it, and its slack may have any value and sign. But nothing
 /// is known of the strengths x_k under it, X_k = ∞, so that a bound by duality asks for h_k ≥ 0 there. Along
 /// a ray that does not change c·x, Σ_k h_k x_k = 0: every h_k is 0 on its edges, which rounding never leaves
 /// it. So y is set to 0, exactly, in all rows that such an edge enters, which makes h_k = c_k there: what a

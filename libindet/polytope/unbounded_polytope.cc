@@ -60,35 +60,31 @@ std::vector<int> all_edges(const EquilibriumProblem& problem) {
 
 }  // namespace
 
-UnboundedPolytope::UnboundedPolytope(EquilibriumProblem of_cone, std::span<const int> rows_of_cone,
-                                     const EquilibriumProblem& whole, std::vector<int> independent_rows,
-                                     std::vector<int> unlimited_edges, double state_total)
+UnboundedPolytope::UnboundedPolytope(EquilibriumProblem of_cone, std::span<const int> rows_of_cone)
     : cone_problem(std::move(of_cone)),
       cone(cone_problem, rows_of_cone,
-           {all_edges(cone_problem), static_cast<double>(cone_problem.unknowns())}),
-      unlimited(std::move(unlimited_edges)),
-      rows(std::move(independent_rows)),
-      total(state_total),
-      within(whole, rows, {unlimited, kWithin * state_total}) {}
+           {all_edges(cone_problem), static_cast<double>(cone_problem.unknowns())}) {}
 
 std::shared_ptr<const UnboundedPolytope> find_unbounded_polytope(const EquilibriumProblem& problem,
                                                                  std::span<const int> rows,
                                                                  std::span<const double> state,
                                                                  const Eigen::VectorXd& ray) {
-  std::vector<int> unlimited;
-  double total = 0;
-  for (int k = 0; k < problem.unknowns(); ++k) {
-    if (!(ray[k] > 0)) continue;
-    unlimited.push_back(k);
-    total += state[static_cast<std::size_t>(k)];
-  }
   EquilibriumProblem cone = without_load(problem, ray);
   const std::vector<int> cone_rows = rows_in_cone(cone, problem, rows);
-  auto result = std::make_shared<const UnboundedPolytope>(std::move(cone), cone_rows, problem,
-                                                          std::vector<int>(rows.begin(), rows.end()),
-                                                          std::move(unlimited), total);
-  if (!result->cone.is_proven() || !result->within.is_proven()) return {};
-  return result;
+  const auto result = std::make_shared<UnboundedPolytope>(std::move(cone), cone_rows);
+  if (!result->cone.is_proven()) return {};
+  result->rows.assign(rows.begin(), rows.end());
+  for (int k = 0; k < problem.unknowns(); ++k) {
+    if (!(ray[k] > 0)) continue;
+    result->unlimited.push_back(k);
+    result->total += state[static_cast<std::size_t>(k)];
+  }
+  // Within a limit that is too narrow, the bounds of the other edges are lost.
+  for (const double factor : {1e0, 1e1, 1e2, 1e3, 1e5}) {
+    result->within = limited_polytope(problem, *result, factor);
+    if (result->within->is_proven()) return result;
+  }
+  return {};
 }
 
 std::shared_ptr<const CentralPolytope> limited_polytope(const EquilibriumProblem& problem,

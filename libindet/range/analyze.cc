@@ -28,6 +28,9 @@ namespace {
 /// Contacts from which the barrier method is the faster one for values (docs/decisions/barrier-method.md).
 constexpr int kFewestForBarrier = 200;
 
+/// Unknowns up to which linear programs take seconds.
+constexpr int kMostForSecondSearch = 1000;
+
 /// Adds the time since the last mark to a stage.
 class Stopwatch {
  public:
@@ -117,18 +120,20 @@ ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& option
   return polytope;
 }
 
-/// Values of an unbounded F that the barrier method does not prove, as that of a force which only the exact
-/// equations keep from growing along a ray: linear programs find them all, if they can.
+/// Whether values of an unbounded F came out too wide, as that of a force which only the exact equations keep
+/// from growing along a ray, in a packing for which linear programs soon find all.
 bool is_left_to_programs(const Packing& packing, const ForcePolytope& polytope, const BarrierRanges& found) {
-  if (!polytope.unbounded || polytope.natural.unknowns() > tolerance::kMostForPrograms) return false;
+  if (!polytope.unbounded || polytope.natural.unknowns() > kMostForSecondSearch) return false;
   for (Eigen::Index i = 0; i < packing.contact_count(); ++i) {
     for (int column = 0; column < 4; ++column) {
-      const bool is_finite = std::isfinite(found.enclosures.lower(i, column)) &&
-                             std::isfinite(found.enclosures.upper(i, column));
-      if (found.extrema.claim(i, column) == Outcome::kEnclosed && !is_finite) return true;
+      if (found.extrema.claim(i, column) != Outcome::kEnclosed) continue;
+      const EnclosedValue value =
+          enclosed_value(found.enclosures.lower(i, column), found.enclosures.upper(i, column),
+                         found.extrema.gap, polytope.problem.units.weight_in_scene());
+      if (value.outcome != Outcome::kEnclosed) return true;
     }
   }
-  return (found.reactions.outcome == Outcome::kFailed).any();
+  return found.reactions.uncertain() > 0;
 }
 
 /// The contacts whose ranges are to be found, ascending.
@@ -223,7 +228,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     }
     polytope = find_force_polytope(packing, options.lp);
     choice = {Method::kLp,
-              "forces are unbounded, and the barrier method does not prove some of the limited ones"};
+              "forces are unbounded, and the barrier method bounds some of the limited ones too widely"};
     stopwatch.mark("polytope");
   }
   const SearchOptions search = search_options(polytope, options, choice.method);

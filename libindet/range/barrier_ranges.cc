@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
@@ -41,7 +42,8 @@ class BarrierSearch {
     if (polytope_.unbounded) take_out_unbounded(*polytope_.unbounded);
     const std::vector<ValueInterval> intervals =
         polytope_.unbounded ? enclose_within_limits(*polytope_.unbounded)
-                            : enclose_least_values(problem_, *polytope_.central, objectives_, options_);
+                            : enclose_least_values(problem_, *polytope_.central,
+                                                   *polytope_.central->equations, objectives_, options_);
     for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], intervals[k]);
     finish_reactions();
     return std::move(result_);
@@ -166,23 +168,20 @@ class BarrierSearch {
   }
 
   /// A least value may be attained where some strengths are large, so what comes out too wide is searched
-  /// within a wider limit again; where rounding is what widens, within a narrower one.
+  /// within a wider limit again.
   std::vector<ValueInterval> enclose_within_limits(const UnboundedPolytope& unbounded) {
-    std::vector<ValueInterval> intervals =
-        enclose_least_values(problem_, unbounded.within, objectives_, options_);
-    for (const double factor : {1e5, 1e1}) {
-      std::vector<std::size_t> wide;
-      std::vector<barrier::Objective> objectives;
-      for (std::size_t k = 0; k < intervals.size(); ++k) {
-        if (is_narrow(intervals[k], problem_, options_.gap)) continue;
-        wide.push_back(k);
-        objectives.push_back(objectives_[k]);
-      }
-      if (wide.empty()) break;
+    std::vector<ValueInterval> intervals(objectives_.size());
+    std::vector<std::size_t> wide(objectives_.size());
+    std::iota(wide.begin(), wide.end(), std::size_t{0});
+    for (const double factor : {1e1, 1e3, 1e5}) {
       const auto within = limited_polytope(problem_, unbounded, factor);
-      if (!within->is_proven()) continue;
-      const std::vector<ValueInterval> again = enclose_least_values(problem_, *within, objectives, options_);
-      for (std::size_t k = 0; k < wide.size(); ++k) intervals[wide[k]].meet(again[k]);
+      if (wide.empty() || !within->centre.found) break;
+      std::vector<barrier::Objective> objectives;
+      for (const std::size_t k : wide) objectives.push_back(objectives_[k]);
+      const std::vector<ValueInterval> found =
+          enclose_least_values(problem_, *within, *unbounded.within->equations, objectives, options_);
+      for (std::size_t k = 0; k < wide.size(); ++k) intervals[wide[k]].meet(found[k]);
+      std::erase_if(wide, [&](std::size_t k) { return is_narrow(intervals[k], problem_, options_.gap); });
     }
     return intervals;
   }

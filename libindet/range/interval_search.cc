@@ -18,13 +18,15 @@ namespace {
 class IntervalSearch {
  public:
   IntervalSearch(const EquilibriumProblem& problem, const CentralPolytope& central,
-                 std::span<const barrier::Objective> objectives, const IntervalOptions& options)
+                 const barrier::VerifiedEquations& equations, std::span<const barrier::Objective> objectives,
+                 const IntervalOptions& options)
       : problem_(problem),
         central_(central),
+        equations_(equations),
         objectives_(objectives),
         options_(options),
         least_(1 / problem.units.internal_in_weights()),
-        intervals_(objectives.size(), ValueInterval{-kInfinity, kInfinity, kNaN, 0}) {}
+        intervals_(objectives.size()) {}
 
   std::vector<ValueInterval> run() {
     std::vector<std::size_t> wanted(objectives_.size());
@@ -55,8 +57,8 @@ class IntervalSearch {
 
   void settle(const barrier::Iterate& iterate) {
     const barrier::Objective& objective = objectives_[iterate.objective];
-    const std::vector<double> x = central_.equations->repaired(iterate.x);
-    const barrier::ValueBounds bounds = central_.equations->enclose(objective, x, iterate.y);
+    const std::vector<double> x = equations_.repaired(iterate.x);
+    const barrier::ValueBounds bounds = equations_.enclose(objective, x, iterate.y);
     intervals_[iterate.objective].meet(
         {bounds.lower, bounds.upper, sensitivity(x, iterate.y), iterate.iterations});
     ++settled_;
@@ -71,6 +73,7 @@ class IntervalSearch {
 
   const EquilibriumProblem& problem_;
   const CentralPolytope& central_;
+  const barrier::VerifiedEquations& equations_;
   std::span<const barrier::Objective> objectives_;
   const IntervalOptions& options_;
   double least_;  ///< 1 mg in the unit of the problem
@@ -97,9 +100,10 @@ bool is_narrow(const ValueInterval& interval, const EquilibriumProblem& problem,
 
 std::vector<ValueInterval> enclose_least_values(const EquilibriumProblem& problem,
                                                 const CentralPolytope& central,
+                                                const barrier::VerifiedEquations& equations,
                                                 std::span<const barrier::Objective> objectives,
                                                 const IntervalOptions& options) {
-  return IntervalSearch(problem, central, objectives, options).run();
+  return IntervalSearch(problem, central, equations, objectives, options).run();
 }
 
 }  // namespace indet

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libindet/barrier/lock_step.h"
+#include "libindet/base/constants.h"
 #include "libindet/equilibrium/equilibrium_problem.h"
 #include "libindet/polytope/central_polytope.h"
 
@@ -21,8 +22,8 @@ struct IntervalOptions {
 
 /// What is known of a least value, in the unit of the problem.
 struct ValueInterval {
-  double lower = 0, upper = 0;  ///< rigorous; infinite where nothing is proven
-  double sensitivity = 0;       ///< sensitivity_to_normals, in the scene's unit of force
+  double lower = -kInfinity, upper = kInfinity;  ///< rigorous; infinite where nothing is proven
+  double sensitivity = kNaN;                     ///< sensitivity_to_normals, in the scene's unit of force
   int iterations = 0;
 
   /// What is known from both together.
@@ -34,8 +35,10 @@ bool is_narrow(const ValueInterval& interval, const EquilibriumProblem& problem,
 /// Encloses the least values of objectives on the edges' strengths, by the barrier method: every interval is
 /// proven (barrier::VerifiedEquations), whatever the iteration did. One that comes out wider than asked for
 /// is searched again with more care, twice at most. `central`: of the problem, perhaps within a limit.
+/// `equations`: of the same problem, and within a limit if that is.
 std::vector<ValueInterval> enclose_least_values(const EquilibriumProblem& problem,
                                                 const CentralPolytope& central,
+                                                const barrier::VerifiedEquations& equations,
                                                 std::span<const barrier::Objective> objectives,
                                                 const IntervalOptions& options);
 

@@ -110,7 +110,7 @@ TEST(BarrierRanges, AgreeWithLinearProgramsInPiles) {
 
 TEST(BarrierRanges, AgreeWithLinearProgramsWhereForcesAreUnbounded) {
   int found = 0, infinite = 0, limited = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 18; ++seed) {
     SCOPED_TRACE(seed);
     const Packing packing = zoo::random_pile(seed, 4 + static_cast<int>(seed), 1.5);
     const ForceRanges barrier = ranges_by(Method::kBarrier, packing);
@@ -131,9 +131,9 @@ TEST(BarrierRanges, AgreeWithLinearProgramsWhereForcesAreUnbounded) {
       }
     }
   }
-  EXPECT_GT(found, 15);
-  EXPECT_GT(infinite, 500);
-  EXPECT_GT(limited, 200);
+  EXPECT_GE(found, 8);
+  EXPECT_GT(infinite, 300);
+  EXPECT_GT(limited, 150);
 }
 
 TEST(BarrierRanges, AreAsNarrowAsAskedFor) {
@@ -149,15 +149,17 @@ TEST(BarrierRanges, AreAsNarrowAsAskedFor) {
 }
 
 TEST(BarrierRanges, DoNotDependOnTheNumberOfThreads) {
-  const Packing packing = bounded_pile();
-  const ForceRanges one = ranges_by(Method::kBarrier, packing);
-  ASSERT_EQ(one.method, Method::kBarrier);
-  for (const int threads : {2, 3}) {
-    const ForceRanges several = ranges_by(Method::kBarrier, packing, 1e-6, threads);
-    EXPECT_TRUE((one.lower == several.lower).all());
-    EXPECT_TRUE((one.upper == several.upper).all());
-    EXPECT_TRUE((one.sensitivity == several.sensitivity).all());
-    EXPECT_EQ(one.pivots, several.pivots);
+  for (const Packing& packing : {bounded_pile(), zoo::random_pile(38, 42, 1.5)}) {
+    const ForceRanges one = ranges_by(Method::kBarrier, packing);
+    ASSERT_EQ(one.method, Method::kBarrier);
+    for (const int threads : {2, 3}) {
+      const ForceRanges several = ranges_by(Method::kBarrier, packing, 1e-6, threads);
+      EXPECT_TRUE((one.lower == several.lower).all());
+      EXPECT_TRUE((one.upper == several.upper).all());
+      EXPECT_TRUE((one.ray == several.ray).all());
+      EXPECT_TRUE(one.rays == several.rays);
+      EXPECT_EQ(one.pivots, several.pivots);
+    }
   }
 }
 
