@@ -20,7 +20,7 @@ struct Law {
 };
 
 constexpr Law law_of(Simulator simulator) {
-  return simulator == Simulator::kContactDynamics ? Law{63, 1.7, 1600} : Law{115, 1.2, 10000};
+  return simulator == Simulator::kContactDynamics ? Law{63, 1.7, 3200} : Law{115, 1.2, 10000};
 }
 
 std::string rounded(double seconds) {
@@ -44,7 +44,8 @@ std::string time_notice(Simulator simulator, std::int64_t disks) {
   const Law law = law_of(simulator);
   const bool is_measured = disks <= law.most_measured;
   std::string text = fmt::format(
-      "{} disks by {} take about {} of processor time, give or take a factor of two; it grows as N^{:.1f}{}",
+      "{} disks by {} take about {} of processor time to come to rest, within a factor of two; it grows as "
+      "N^{:.1f}{}",
       disks, to_string(simulator), rounded(seconds), law.power,
       is_measured ? "" : fmt::format(" (measured with up to {} disks)", law.most_measured));
   const double other = seconds_estimate(Simulator::kMolecularDynamics, disks);

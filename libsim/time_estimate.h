@@ -11,7 +11,7 @@ namespace indet::sim {
 /// usual box: contact dynamics, or molecular dynamics with implicit damping (preset paper). Power laws
 /// through what was measured on one core of a busy machine, within a factor of two (docs/simulation.md):
 ///
-///   contact dynamics     63 s (N/1600)^1.7      200 … 1600 disks; 2, 6, 23, 63 s
+///   contact dynamics     63 s (N/1600)^1.7      200 … 3200 disks; 2, 6, 23, 63, 177 s with 200, 400, …, 3200
 ///   molecular dynamics  115 s (N/1600)^1.2      400 … 10 000 disks; 15, 29, 115, 1020 s with 400, 800, 1600,
 ///   10 000
 double seconds_estimate(Simulator simulator, std::int64_t disks);

@@ -173,8 +173,8 @@ class BarrierSearch {
     std::vector<ValueInterval> intervals(objectives_.size());
     std::vector<std::size_t> wide(objectives_.size());
     std::iota(wide.begin(), wide.end(), std::size_t{0});
-    for (const double factor : {1e1, 1e3, 1e5}) {
-      const auto within = limited_polytope(problem_, unbounded, factor);
+    for (const double factor : {0.0, 1e1, 1e3, 1e5}) {
+      const auto within = factor > 0 ? limited_polytope(problem_, unbounded, factor) : unbounded.within;
       if (wide.empty() || !within->centre.found) break;
       std::vector<barrier::Objective> objectives;
       for (const std::size_t k : wide) objectives.push_back(objectives_[k]);

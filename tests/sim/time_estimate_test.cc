@@ -8,7 +8,7 @@ namespace indet::sim {
 namespace {
 
 TEST(TimeEstimate, IsWithinAFactorOfTwoOfWhatWasMeasured) {
-  for (const auto& [disks, seconds] : {std::pair(200, 2), {400, 6}, {800, 23}, {1600, 63}}) {
+  for (const auto& [disks, seconds] : {std::pair(200, 2), {400, 6}, {800, 23}, {1600, 63}, {3200, 177}}) {
     EXPECT_GT(seconds_estimate(Simulator::kContactDynamics, disks), seconds / 2.0) << disks;
     EXPECT_LT(seconds_estimate(Simulator::kContactDynamics, disks), seconds * 2.0) << disks;
   }
@@ -23,7 +23,9 @@ TEST(TimeEstimate, IsToldWhereASimulationTakesLong) {
   EXPECT_EQ(time_notice(Simulator::kMolecularDynamics, 400), "");
   const std::string text = time_notice(Simulator::kContactDynamics, 3200);
   EXPECT_NE(text.find("3200 disks by contact dynamics take about 3 minutes"), std::string::npos) << text;
-  EXPECT_NE(text.find("measured with up to 1600 disks"), std::string::npos) << text;
+  EXPECT_EQ(text.find("measured"), std::string::npos) << text;
+  const std::string more = time_notice(Simulator::kContactDynamics, 6400);
+  EXPECT_NE(more.find("measured with up to 3200 disks"), std::string::npos) << more;
 }
 
 TEST(TimeEstimate, ProposesMolecularDynamicsOnlyWhereItIsFaster) {
