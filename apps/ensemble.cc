@@ -28,6 +28,7 @@
 #include "libsim/memory_estimate.h"
 #include "libsim/molecular_preset.h"
 #include "libsim/scene_toml.h"
+#include "libsim/time_estimate.h"
 
 namespace indet::app {
 namespace {
@@ -143,6 +144,18 @@ void print_molecular_dynamics(const EnsembleConfig& config, const std::string& p
       preset, config.molecular_dynamics.k, config.molecular_dynamics.gamma);
 }
 
+/// What to expect of each simulation, where one takes long.
+void note_time(const EnsembleConfig& config, const Context& context) {
+  bool is_told[2] = {false, false};
+  for (const sim::Protocol protocol : config.protocols) {
+    const auto simulator = starts_from_cd1(protocol) ? sim::Simulator::kContactDynamics
+                                                     : properties_of(protocol).simulator.value();
+    const std::string notice = sim::time_notice(simulator, config.scene.disks);
+    if (notice.empty() || std::exchange(is_told[static_cast<std::size_t>(simulator)], true)) continue;
+    context.note("each packing of " + notice);
+  }
+}
+
 int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   const EnsembleConfig config = config_of(o, seeds_given);
@@ -159,6 +172,7 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   if (!config.protocols.empty())
     require_memory(sim::memory_estimate(config.scene.disks),
                    fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
+  note_time(config, context);
   std::vector<std::filesystem::path> inputs(o.files.begin(), o.files.end());
   inputs.emplace_back(o.scene_file);
   claim_folder(folder, plan, replacement_rule(inputs, o.overwrite, context));

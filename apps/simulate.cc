@@ -25,6 +25,7 @@
 #include "libsim/memory_estimate.h"
 #include "libsim/molecular_preset.h"
 #include "libsim/scene_toml.h"
+#include "libsim/time_estimate.h"
 
 namespace indet::app {
 namespace {
@@ -113,6 +114,12 @@ void require_memory_for(std::int64_t disks) {
   require_memory(sim::memory_estimate(disks), fmt::format("a simulation of {}", counted(disks, "disk")));
 }
 
+/// What to expect of a simulation that takes long, before it begins.
+void note_time(sim::Simulator simulator, std::int64_t disks, const Context& context) {
+  const std::string notice = sim::time_notice(simulator, disks);
+  if (!notice.empty()) context.note(notice);
+}
+
 /// The state that the protocol starts from.
 struct Start {
   sim::World world;
@@ -153,6 +160,7 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
                              o.protocol_name));
     SimulationOptions first;
     first.time_limit = sim::default_time_limit(start.world, start.height);
+    note_time(sim::Simulator::kContactDynamics, start.world.size(), context);
     const sim::Simulation cd1 = sim::simulate(start.world, {}, first, {.progress = context.progress()});
     start.world = sim::world_of(cd1.packing, start.world.friction);
     start.world.bring_to_rest();
@@ -233,6 +241,11 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
     context.note(
         fmt::format("checkpoint written to {}; --resume goes on from there", checkpoint_path.string()));
   };
+  // How long a start from rest takes, and a step without implicit damping, was not measured.
+  const bool is_usual = rigid || (o.preset != "stiff" && o.damping_method != "explicit");
+  const bool falls = o.from.empty() && !starts_from_cd1(o.protocol());
+  if (falls && is_usual && !resume)
+    note_time(properties_of(o.protocol()).simulator.value(), start.world.size(), context);
   const sim::Simulation result =
       sim::simulate(start.world, {}, options, listener, resume ? &*resume : nullptr);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -9,10 +9,11 @@
 
 namespace indet::barrier {
 
-BlockStructure::BlockStructure(const EquilibriumProblem& problem, std::span<const int> rows)
-    : columns_(problem.unknowns()) {
+BlockStructure::BlockStructure(const EquilibriumProblem& problem, std::span<const int> rows, Limit limit)
+    : limit_(std::move(limit)), columns_(problem.unknowns()) {
   collect_nodes(problem, rows);
   collect_groups(problem);
+  if (has_limit()) add_limit();
   order_nodes();
   list_products();
 }
@@ -72,6 +73,35 @@ void BlockStructure::collect_groups(const EquilibriumProblem& problem) {
   }
 }
 
+/// A node of one row, a touch more of each group with a column in it, and the group of the slack.
+void BlockStructure::add_limit() {
+  const int node = nodes();
+  const int place = rows();
+  is_last_.push_back(true);
+  equation_of_place_.push_back(-1);
+  load_.push_back(limit_.total);
+  first_row_.push_back(place + 1);
+  groups_.push_back({columns_, 1, static_cast<int>(touches_.size()), static_cast<int>(touches_.size())});
+  std::vector<double> entry(static_cast<std::size_t>(columns_) + 1, 0.0);
+  for (const int column : limit_.columns) entry[static_cast<std::size_t>(column)] = 1;
+  entry.back() = 1;
+  ++columns_;
+  std::vector<Touch> touches;
+  for (Group& group : groups_) {
+    const int first = static_cast<int>(touches.size());
+    for (int t = group.first_touch; t < group.end_touch; ++t)
+      touches.push_back(touches_[static_cast<std::size_t>(t)]);
+    const auto begin = entry.begin() + group.first_column;
+    if (std::any_of(begin, begin + group.columns, [](double value) { return value != 0; })) {
+      touches.push_back({node, 1, place, static_cast<int>(coefficients_.size())});
+      coefficients_.insert(coefficients_.end(), begin, begin + group.columns);
+    }
+    group.first_touch = first;
+    group.end_touch = static_cast<int>(touches.size());
+  }
+  touches_ = std::move(touches);
+}
+
 void BlockStructure::order_nodes() {
   const auto count = static_cast<std::size_t>(nodes());
   std::vector<std::vector<int>> neighbours(count);
@@ -98,7 +128,8 @@ void BlockStructure::order_nodes() {
     for (int place = first_row_[static_cast<std::size_t>(old)];
          place < first_row_[static_cast<std::size_t>(old) + 1]; ++place) {
       const int row = equation_of_place_[static_cast<std::size_t>(place)];
-      place_of_equation_[static_cast<std::size_t>(row)] = static_cast<int>(equations.size());
+      const int new_place = static_cast<int>(equations.size());
+      (row >= 0 ? place_of_equation_[static_cast<std::size_t>(row)] : limit_place_) = new_place;
       equations.push_back(row);
       load.push_back(load_[static_cast<std::size_t>(place)]);
     }

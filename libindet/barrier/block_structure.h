@@ -9,6 +9,13 @@
 
 namespace indet::barrier {
 
+/// One row more, which cuts an unbounded set off: Σ x over `columns` + slack = total. Its slack is the last
+/// column. No limit if there are no columns.
+struct Limit {
+  std::vector<int> columns;  ///< ascending
+  double total = 0;
+};
+
 /// The sparsity of A and of the Cholesky factor of A D Aᵀ, D diagonal, for an equilibrium problem in edge
 /// strengths, A x = b, x ≥ 0 (EquilibriumProblem::edge_matrix). Found once a packing; what is computed with
 /// it works on arrays of this order.
@@ -17,15 +24,15 @@ namespace indet::barrier {
 /// the cell, the bounds of one contact. Columns are taken together in *groups*: the one or two edges of a
 /// contact; a slack is a group of its own. A group touches few nodes (two disks, or a disk and a wall;
 /// besides the cell and its own bounds), and two nodes share a block of A D Aᵀ where a group touches both:
-/// the graph of the packing. Walls and the cell, which touch many disks, are eliminated last, so that they
-/// border the factor and fill nothing else; bounds of contacts, whose two disks share a block anyway, widen
-/// nothing.
+/// the graph of the packing. Walls, the cell and a limit, which touch many disks, are eliminated last, so
+/// that they border the factor and fill nothing else; bounds of contacts, whose two disks share a block
+/// anyway, widen nothing.
 class BlockStructure {
  public:
   /// `rows`: the equations to keep, ascending; they have to be independent for A D Aᵀ to be definite. The
   /// others play no part in anything that is computed here: that they follow from these, with their loads, is
   /// for the caller to know. (A disk on an incline has a centre without its third equation, and is empty.)
-  BlockStructure(const EquilibriumProblem& problem, std::span<const int> rows);
+  BlockStructure(const EquilibriumProblem& problem, std::span<const int> rows, Limit limit = {});
 
   /// A node that a group touches: A has the block of its `rows` and the group's columns there, column by
   /// column from `coefficients`.
@@ -54,7 +61,12 @@ class BlockStructure {
   /// Nodes are numbered by elimination. Places of the rows of node j: first_row(j) … first_row(j + 1) − 1.
   int first_row(int node) const { return first_row_[static_cast<std::size_t>(node)]; }
   int node_rows(int node) const { return first_row(node + 1) - first_row(node); }
-  /// The equation of the problem at a place, and the place of an equation, −1 if it was left out.
+  const Limit& limit() const { return limit_; }
+  bool has_limit() const { return !limit_.columns.empty(); }
+  /// The place of the limit's row; −1 if there is none.
+  int limit_place() const { return limit_place_; }
+  /// The equation of the problem at a place (−1: the limit), and the place of an equation, −1 if it was left
+  /// out.
   const std::vector<int>& equation_of_place() const { return equation_of_place_; }
   const std::vector<int>& place_of_equation() const { return place_of_equation_; }
   /// b, by places.
@@ -88,12 +100,15 @@ class BlockStructure {
 
  private:
   void collect_nodes(const EquilibriumProblem& problem, std::span<const int> rows);
+  void add_limit();
   void collect_groups(const EquilibriumProblem& problem);
   void order_nodes();
   void find_fill(const std::vector<std::vector<int>>& neighbours);
   void list_products();
   int block_of(int row_node, int column_node) const;
 
+  Limit limit_;
+  int limit_place_ = -1;
   int columns_ = 0;
   std::vector<int> first_row_, equation_of_place_, place_of_equation_;
   std::vector<bool> is_last_;  ///< of each node

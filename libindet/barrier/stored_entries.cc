@@ -12,6 +12,10 @@ std::vector<double> entry_rounding(const EquilibriumProblem& problem, const Bloc
                                     [](const ContactEnds& ends) { return ends.a >= 0 && ends.a == ends.b; });
   std::vector<double> result;
   for (const int row : structure.equation_of_place()) {
+    if (row < 0) {  // the limit: whole numbers
+      result.push_back(0);
+      continue;
+    }
     // Entries are stored doubles or rounded a few times; those of stress are f·l/L with |f| ≤ √2, |l|/L ≤
     // 3/2, levers up to two radii.
     const bool is_stress = problem.rows[static_cast<std::size_t>(row)].body.is_cell();
@@ -23,6 +27,10 @@ std::vector<double> entry_rounding(const EquilibriumProblem& problem, const Bloc
 std::vector<double> load_rounding(const EquilibriumProblem& problem, const BlockStructure& structure) {
   std::vector<double> result;
   for (const int row : structure.equation_of_place()) {
+    if (row < 0) {
+      result.push_back(0);
+      continue;
+    }
     const EquilibriumRow& equation = problem.rows[static_cast<std::size_t>(row)];
     result.push_back(6 * kRoundoff * equation.load / equation.unit + kTiny);
   }

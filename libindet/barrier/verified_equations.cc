@@ -55,6 +55,11 @@ VerifiedEquations::VerifiedEquations(const EquilibriumProblem& problem, const Bl
   load_error_ = load_rounding(problem, structure);
   row_terms_.assign(entry_error_.size(), 0);
   for_each_entry(structure, [&](std::size_t, std::size_t place, double) { row_terms_[place] += 1; });
+  is_unlimited_.assign(static_cast<std::size_t>(structure.columns()), false);
+  for (const int k : structure.limit().columns) is_unlimited_[static_cast<std::size_t>(k)] = true;
+  if (structure.has_limit()) is_unlimited_.back() = true;
+  for (std::size_t g = 0; g < structure.groups().size(); ++g)
+    group_.insert(group_.end(), static_cast<std::size_t>(structure.groups()[g].columns), g);
   for (const double x : centre.x) squares_.push_back(x * x);
   // Beyond these, squares and the scales that go with them leave the range where rounding is relative.
   const bool is_in_range = std::all_of(centre.x.begin(), centre.x.end(),
@@ -180,7 +185,8 @@ VerifiedEquations::Transposed VerifiedEquations::verified_transposed_product(
       }
       const auto k = static_cast<std::size_t>(group.first_column + e);
       result.value[k] = sum;
-      result.error[k] = widen_ * (kRoundoff * terms * magnitude + widen_ * rounded) + kTiny;
+      const bool rests = magnitude == 0 && rounded == 0;
+      result.error[k] = rests ? 0 : widen_ * (kRoundoff * terms * magnitude + widen_ * rounded) + kTiny;
     }
   }
   return result;
@@ -189,11 +195,13 @@ VerifiedEquations::Transposed VerifiedEquations::verified_transposed_product(
 void VerifiedEquations::bound_strengths() {
   const auto n = static_cast<std::size_t>(structure_.columns());
   strength_.assign(n, kInfinity);
-  const LoadProduct load = load_product(centre_.y);
+  const std::vector<double> y = bounding_multipliers();
+  const LoadProduct load = load_product(y);
   const double total = load.value + load.error;
-  const Transposed along = verified_transposed_product(centre_.y);
+  const Transposed along = verified_transposed_product(y);
   is_bounded_ = std::isfinite(total);
   for (std::size_t k = 0; k < n; ++k) {
+    if (is_unlimited_[k]) continue;
     const double least = along.value[k] - along.error[k];
     if (least > 0) {
       strength_[k] = widen_ * std::max(0.0, total / least);
@@ -204,12 +212,40 @@ void VerifiedEquations::bound_strengths() {
   if (!is_bounded_) std::fill(strength_.begin(), strength_.end(), kInfinity);
 }
 
+std::vector<double> VerifiedEquations::bounding_multipliers() const {
+  std::vector<double> y = centre_.y;
+  if (!structure_.has_limit()) return y;
+  for (std::size_t k = 0; k < is_unlimited_.size(); ++k) {
+    if (is_unlimited_[k]) stop_motion(k, y);
+  }
+  return y;
+}
+
+bool VerifiedEquations::stop_motion(std::size_t column, std::vector<double>& y) const {
+  const BlockStructure::Group& group = structure_.groups()[group_[column]];
+  const std::size_t e = column - static_cast<std::size_t>(group.first_column);
+  bool stops = false;
+  for (int t = group.first_touch; t < group.end_touch; ++t) {
+    const BlockStructure::Touch& touch = structure_.touches()[static_cast<std::size_t>(t)];
+    for (int r = 0; r < touch.rows; ++r) {
+      const std::size_t place = static_cast<std::size_t>(touch.first_row + r);
+      const std::size_t entry =
+          static_cast<std::size_t>(touch.coefficients + r) + e * static_cast<std::size_t>(touch.rows);
+      if (structure_.coefficients()[entry] == 0 || y[place] == 0) continue;
+      y[place] = 0;
+      stops = true;
+    }
+  }
+  return stops;
+}
+
 std::vector<double> VerifiedEquations::repaired(std::span<const double> x) const {
   std::vector<double> result(x.begin(), x.end());
   double residual = kInfinity;
   for (int step = 0; step < 2 && residual > kLargeResidual; ++step) {
     std::vector<double> w = product(structure_, result);
     for (std::size_t i = 0; i < w.size(); ++i) w[i] = structure_.load()[i] - w[i];
+    if (structure_.has_limit()) w[static_cast<std::size_t>(structure_.limit_place())] = 0;
     residual = largest_entry(w);
     cholesky_.solve(w);
     const std::vector<double> along = transposed_product(structure_, w);
@@ -235,6 +271,7 @@ double VerifiedEquations::shift_of(std::span<const double> x) const {
   });
   double sum = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (static_cast<int>(i) == structure_.limit_place()) continue;  // the slack, of any sign, makes up for it
     const double rounding = gamma(row_terms_[i] + 2) * rows[i].size + entry_error_[i] * rows[i].strengths;
     const double residual = std::abs(rows[i].residual) + widen_ * rounding + load_error_[i] + kTiny;
     sum += residual * residual * scale_[i] * scale_[i];
@@ -255,6 +292,13 @@ VerifiedEquations::Transposed VerifiedEquations::reduced_costs(const Objective& 
 }
 
 double VerifiedEquations::lower_bound(const Objective& objective, std::span<const double> y) const {
+  if (structure_.has_limit()) {
+    // How small h_k is on the edges of a ray, in units of the limit's multiplier, differs: all bounds hold.
+    double best = -kInfinity;
+    for (const double resting : {0.0, 10.0, 1e3})
+      best = std::max(best, lower_bound_beyond_limit(objective, {y.begin(), y.end()}, resting));
+    return best;
+  }
   const LoadProduct load = load_product(y);
   const Transposed along = reduced_costs(objective, y);
   double excess = 0;
@@ -266,16 +310,51 @@ double VerifiedEquations::lower_bound(const Objective& objective, std::span<cons
   return std::isnan(bound) ? -kInfinity : bound;
 }
 
-double VerifiedEquations::upper_bound(const Objective& objective, std::span<const double> x) const {
+double VerifiedEquations::lower_bound_beyond_limit(const Objective& objective, std::vector<double> y,
+                                                   double resting) const {
+  double& of_limit = y[static_cast<std::size_t>(structure_.limit_place())];
+  const double small = resting * std::abs(of_limit);
+  of_limit = 0;
+  Transposed along = reduced_costs(objective, y);
+  for (std::size_t k = 0; k < is_unlimited_.size(); ++k) {
+    if (is_unlimited_[k] && along.value[k] >= -small) stop_motion(k, y);
+  }
+  for (bool stops = true; stops;) {
+    stops = false;
+    along = reduced_costs(objective, y);
+    for (std::size_t k = 0; k < is_unlimited_.size(); ++k) {
+      if (!is_unlimited_[k] || along.value[k] + along.error[k] <= 0) continue;
+      if (!stop_motion(k, y)) return -kInfinity;
+      stops = true;
+    }
+  }
+  const LoadProduct load = load_product(y);
+  double excess = 0;
+  for (std::size_t k = 0; k < along.value.size(); ++k) {
+    const double h = along.value[k] + along.error[k];
+    if (!is_unlimited_[k] && !(h <= 0)) excess += h * strength_[k];
+  }
+  const double bound = load.value - load.error - widen_ * widen_ * excess;
+  return std::isnan(bound) ? -kInfinity : bound;
+}
+
+NearestSolution VerifiedEquations::nearest_solution(std::span<const double> x) const {
   const double shift = shift_of(x);
-  if (!(shift < kInfinity)) return kInfinity;
+  if (!(shift < kInfinity)) return {kInfinity, 1};
   double share = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
+  const std::size_t strengths = x.size() - (structure_.has_limit() ? 1 : 0);
+  for (std::size_t k = 0; k < strengths; ++k) {
     const double left = x[k] - widen_ * centre_.x[k] * shift;
     if (left < 0) share = std::max(share, -left / (centre_.x[k] * (1 - centre_shift_) - left));
-    if (std::isnan(left)) return kInfinity;
+    if (std::isnan(left)) return {kInfinity, 1};
   }
-  share = std::min(1.0, widen_ * share);
+  return {shift, std::min(1.0, widen_ * share)};
+}
+
+double VerifiedEquations::upper_bound(const Objective& objective, std::span<const double> x,
+                                      const NearestSolution& nearest) const {
+  const auto [shift, share] = nearest;
+  if (!(shift < kInfinity)) return kInfinity;
   double value = 0, middle = 0, reach = 0, size = 0;
   for (const auto& [column, weight] : objective) {
     const auto k = static_cast<std::size_t>(column);
@@ -294,7 +373,7 @@ double VerifiedEquations::upper_bound(const Objective& objective, std::span<cons
 
 ValueBounds VerifiedEquations::enclose(const Objective& objective, std::span<const double> x,
                                        std::span<const double> y) const {
-  return {lower_bound(objective, y), upper_bound(objective, x)};
+  return {lower_bound(objective, y), upper_bound(objective, x, nearest_solution(x))};
 }
 
 std::vector<double> VerifiedEquations::nearest_multipliers(const Objective& objective) const {

@@ -35,6 +35,7 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
   polytope.dim = decision.dim;
   polytope.interior = decision.interior;
   polytope.ray = decision.ray;
+  polytope.unbounded = std::move(decision.unbounded);
   if (decision.status == PolytopeStatus::kEmpty) set_motion(polytope.problem, decision.motion, polytope);
   if (decision.status != PolytopeStatus::kBounded && decision.status != PolytopeStatus::kPoint)
     return polytope;
@@ -46,8 +47,9 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
 
 }  // namespace
 
-CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows)
-    : structure(problem, rows) {
+CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows,
+                                 barrier::Limit limit)
+    : structure(problem, rows, std::move(limit)) {
   barrier::BlockCholesky cholesky(structure);
   centre = barrier::find_analytic_centre(structure, cholesky);
   if (centre.found) equations.emplace(problem, structure, centre);

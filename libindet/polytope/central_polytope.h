@@ -14,10 +14,11 @@
 namespace indet {
 
 /// The analytic centre of a bounded polytope that is full-dimensional in the edges of its problem, and what
-/// it proves: all that the barrier method works on. No matrix in it is dense.
+/// it proves: all that the barrier method works on. No matrix in it is dense. Of an unbounded one it is the
+/// centre of the part that `limit` leaves.
 struct CentralPolytope {
   /// `rows`: independent equations of the problem that the others follow from.
-  CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows);
+  CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows, barrier::Limit limit = {});
   CentralPolytope(const CentralPolytope&) = delete;
   CentralPolytope& operator=(const CentralPolytope&) = delete;
 

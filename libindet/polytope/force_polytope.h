@@ -15,6 +15,7 @@
 namespace indet {
 
 struct CentralPolytope;
+struct UnboundedPolytope;
 
 /// What the polytope of admissible contact states F [19] of a packing is.
 enum class PolytopeStatus : std::uint8_t {
@@ -55,6 +56,8 @@ struct ForcePolytope {
   std::shared_ptr<const exact::ContactProblem> exact;
   /// The analytic centre, where it was asked for (central_polytope.h).
   std::shared_ptr<const CentralPolytope> central;
+  /// What stands in its place where F is unbounded and the barrier method can tell (unbounded_polytope.h).
+  std::shared_ptr<const UnboundedPolytope> unbounded;
   int dim = -1;                 ///< dim F; −1 if empty
   bool rank_ambiguous = false;  ///< of either null space
   /// Some decision (rank, emptiness, dimension, boundedness) lies within rounding: results may be wrong by

@@ -21,7 +21,10 @@ void add_multiplier(const EquilibriumProblem& problem, int bound, double value, 
 Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::BlockStructure& structure,
                              std::span<const double> y) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(problem.equations());
-  for (std::size_t i = 0; i < y.size(); ++i) result[structure.equation_of_place()[i]] = y[i];
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const int equation = structure.equation_of_place()[i];
+    if (equation >= 0) result[equation] = y[i];
+  }
   return result;
 }
 

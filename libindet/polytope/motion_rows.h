@@ -12,7 +12,7 @@
 namespace indet {
 
 /// Multipliers of a structure's rows, in its order, as a motion of all equations: 0 in those that it leaves
-/// out.
+/// out. That of a limit is dropped.
 Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::BlockStructure& structure,
                              std::span<const double> y);
 

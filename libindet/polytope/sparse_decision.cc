@@ -14,6 +14,7 @@
 #include "libindet/exact/certificate.h"
 #include "libindet/nullspace/null_space.h"
 #include "libindet/polytope/motion_rows.h"
+#include "libindet/polytope/unbounded_polytope.h"
 
 namespace indet {
 namespace {
@@ -153,8 +154,12 @@ void prove_states(const BlockStructure& structure, BlockCholesky& cholesky, cons
   const bool is_plain = structure.rows() == decision.problem.equations() && decision.steps.empty();
   if (!is_plain && !exact.has_structure(decision)) return;
   const bool has_ray = decision.status == PolytopeStatus::kUnbounded;
-  if (has_ray && !exact.has_ray(decision)) return;
-  decision.proof = is_plain && !has_ray ? Proof::kFloating : Proof::kExact;
+  if (has_ray)
+    decision.unbounded =
+        find_unbounded_polytope(decision.problem, decision.independent_rows, x, decision.ray);
+  const bool is_exact = has_ray && !decision.unbounded;
+  if (is_exact && !exact.has_ray(decision)) return;
+  decision.proof = is_plain && !is_exact ? Proof::kFloating : Proof::kExact;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "libindet/equilibrium/equilibrium_problem.h"
@@ -50,6 +51,8 @@ struct SparseDecision {
   /// and no edge resists. ForcePolytope::motion spreads it over the bodies.
   Eigen::VectorXd motion;
   Eigen::VectorXd ray;  ///< if unbounded: x ≥ 0, A x = 0, Σx = 1, of maximal support
+  /// If unbounded: what proves the ray by bounds of all rounding errors; nothing if these do not.
+  std::shared_ptr<const UnboundedPolytope> unbounded;
   /// If bounded: y of the rows with Aᵀ y ≥ 1, so that (Aᵀ y)·x = b·y everywhere in F. Aᵀ y − 1 is
   /// ForcePolytope::bounding_multipliers.
   Eigen::VectorXd bounding;

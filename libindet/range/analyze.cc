@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <span>
@@ -29,6 +30,9 @@ namespace {
 /// (docs/decisions/barrier-method.md).
 constexpr int kFewestForBarrier = 200;
 constexpr int kFewestForCentralStates = 500;
+
+/// Unknowns up to which linear programs take seconds.
+constexpr int kMostForSecondSearch = 1000;
 
 /// Adds the time since the last mark to a stage.
 class Stopwatch {
@@ -91,16 +95,20 @@ IntervalOptions interval_options(const AnalyzeOptions& options, const char* stag
 }
 
 /// The polytope in the form that the method works on. Where the barrier method cannot decide, linear programs
-/// do, and they find the values, too, unless F is bounded after all. So they do where F is unbounded, in a
-/// packing that is small enough for their dense matrices.
-ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& options, MethodChoice& choice) {
+/// do, and they find the values, too, unless F is bounded after all. So they do where it cannot prove enough
+/// of an unbounded F, or has no states of it, in a packing that is small enough for their dense matrices.
+ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& options, bool wants_states,
+                            MethodChoice& choice) {
   if (choice.method != Method::kBarrier) return find_force_polytope(packing, options.lp);
   std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
   const bool is_large = 2 * packing.contact_count() > tolerance::kMostForDense;
-  if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded)
+  const bool has_centre = sparse && (sparse->central || (sparse->unbounded && (is_large || !wants_states)));
+  if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded && !has_centre)
     choice.reason =
-        "forces are unbounded, for which this method has no values, and the packing is too large for lp";
-  if (sparse && (is_large || sparse->central || sparse->status == PolytopeStatus::kEmpty))
+        "forces are unbounded, the bodies that they press together can still move, for which this method has "
+        "no "
+        "values, and the packing is too large for lp";
+  if (sparse && (is_large || has_centre || sparse->status == PolytopeStatus::kEmpty))
     return std::move(*sparse);
   if (!sparse && is_large)
     throw LibraryError(
@@ -114,6 +122,22 @@ ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& option
                     (polytope.status == PolytopeStatus::kBounded ? "too thin" : to_string(polytope.status));
   }
   return polytope;
+}
+
+/// Whether values of an unbounded F came out too wide, as that of a force which only the exact equations keep
+/// from growing along a ray, in a packing for which linear programs soon find all.
+bool is_left_to_programs(const Packing& packing, const ForcePolytope& polytope, const BarrierRanges& found) {
+  if (!polytope.unbounded || polytope.natural.unknowns() > kMostForSecondSearch) return false;
+  for (Eigen::Index i = 0; i < packing.contact_count(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      if (found.extrema.claim(i, column) != Outcome::kEnclosed) continue;
+      const EnclosedValue value =
+          enclosed_value(found.enclosures.lower(i, column), found.enclosures.upper(i, column),
+                         found.extrema.gap, polytope.problem.units.weight_in_scene());
+      if (value.outcome != Outcome::kEnclosed) return true;
+    }
+  }
+  return found.reactions.uncertain() > 0;
 }
 
 /// The contacts whose ranges are to be found, ascending.
@@ -203,7 +227,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
       options.method ? MethodChoice{*options.method, ""} : choose_method(packing.contact_count(), kept);
   if (choice.method == Method::kBarrier) kept = states_by_barrier(kept, options.method.has_value());
   if (options.estimate) choice.method = Method::kBarrier;
-  ForcePolytope polytope = find_polytope(packing, options, choice);
+  ForcePolytope polytope = find_polytope(packing, options, kept.kind != StateChoice::Kind::kNone, choice);
   if (options.estimate && polytope.status != PolytopeStatus::kEmpty) {
     require_centre(polytope);
     stopwatch.mark("polytope");
@@ -219,21 +243,27 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (choice.method == Method::kBarrier) {
     BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, options.reactions,
                                               interval_options(options, "force ranges"));
-    found.extrema.reason = std::move(choice.reason);
     stopwatch.mark("ranges");
-    if (kept.kind == StateChoice::Kind::kCanonical && polytope.central) {
-      add_canonical_states(
-          packing, polytope, kept,
-          kept.keeps_all() ? contacts : contacts_with_states(kept, middles(found.enclosures)),
-          interval_options(options, "extremal states"), found);
-      stopwatch.mark("states");
+    if (!is_left_to_programs(packing, polytope, found)) {
+      found.extrema.reason = std::move(choice.reason);
+      if (kept.kind == StateChoice::Kind::kCanonical && polytope.central) {
+        add_canonical_states(
+            packing, polytope, kept,
+            kept.keeps_all() ? contacts : contacts_with_states(kept, middles(found.enclosures)),
+            interval_options(options, "extremal states"), found);
+        stopwatch.mark("states");
+      }
+      ForceRanges ranges =
+          assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
+      ranges.reactions = std::move(found.reactions);
+      stopwatch.mark("measures");
+      ranges.seconds = std::move(seconds);
+      return ranges;
     }
-    ForceRanges ranges =
-        assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
-    ranges.reactions = std::move(found.reactions);
-    stopwatch.mark("measures");
-    ranges.seconds = std::move(seconds);
-    return ranges;
+    polytope = find_force_polytope(packing, options.lp);
+    choice = {Method::kLp,
+              "forces are unbounded, and the barrier method bounds some of the limited ones too widely"};
+    stopwatch.mark("polytope");
   }
   const SearchOptions search = search_options(polytope, options, choice.method);
   Extrema extrema = find_extrema(packing, polytope, contacts, kept, search);

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
+#include "libindet/polytope/unbounded_polytope.h"
 #include "libindet/range/functional.h"
+#include "libindet/range/growth_search.h"
 
 namespace indet {
 namespace {
@@ -32,10 +36,14 @@ class BarrierSearch {
 
   BarrierRanges run() {
     if (polytope_.status == PolytopeStatus::kEmpty) return without_states(Outcome::kNotRequested);
-    if (!polytope_.central) return without_states(Outcome::kFailed);
+    if (!polytope_.central && !polytope_.unbounded) return without_states(Outcome::kFailed);
     list_contacts();
     list_reactions();
-    const std::vector<ValueInterval> intervals = enclose_least_values(polytope_, objectives_, options_);
+    if (polytope_.unbounded) take_out_unbounded(*polytope_.unbounded);
+    const std::vector<ValueInterval> intervals =
+        polytope_.unbounded ? enclose_within_limits(*polytope_.unbounded)
+                            : enclose_least_values(problem_, *polytope_.central,
+                                                   *polytope_.central->equations, objectives_, options_);
     for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], intervals[k]);
     finish_reactions();
     return std::move(result_);
@@ -118,6 +126,66 @@ class BarrierSearch {
     }
   }
 
+  /// Notes what grows without limit, and leaves the other objectives.
+  void take_out_unbounded(const UnboundedPolytope& unbounded) {
+    const Growth growth = find_growth(unbounded, problem_, objectives_, options_);
+    result_.extrema.pivots += growth.iterations;
+    result_.extrema.solves += growth.searches;
+    std::vector<Target> targets;
+    std::vector<barrier::Objective> objectives;
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      if (growth.ray[k] < 0) {
+        targets.push_back(targets_[k]);
+        objectives.push_back(std::move(objectives_[k]));
+      } else {
+        store_ray(targets_[k], growth.ray[k], growth.rays[static_cast<std::size_t>(growth.ray[k])]);
+      }
+    }
+    targets_ = std::move(targets);
+    objectives_ = std::move(objectives);
+  }
+
+  void store_ray(const Target& target, int number, const Eigen::VectorXd& strengths) {
+    std::map<int, std::int32_t>& known = target.is_reaction ? reaction_rays_ : force_rays_;
+    Rows<double>& rays = target.is_reaction ? result_.reactions.rays : result_.extrema.rays;
+    const auto [entry, is_new] = known.emplace(number, static_cast<std::int32_t>(rays.rows()));
+    if (is_new) {
+      const Eigen::VectorXd ray = problem_.state(strengths).value();
+      rays.conservativeResize(rays.rows() + 1, Eigen::NoChange);
+      rays.bottomRows(1) = ray.transpose() / ray.lpNorm<Eigen::Infinity>();
+    }
+    if (target.is_reaction) {
+      const double infinite = -target.sign * kInfinity;
+      result_.reactions.ray(target.row, target.column) = entry->second;
+      result_.reactions.lower(target.row, target.column) = infinite;
+      result_.reactions.upper(target.row, target.column) = infinite;
+      return;
+    }
+    result_.extrema.claim(target.row, target.column) = Outcome::kUnbounded;
+    result_.extrema.ray(target.row, target.column) = entry->second;
+    result_.extrema.ray_residual(target.row, target.column) =
+        (problem_.edge_matrix * strengths).lpNorm<Eigen::Infinity>();
+  }
+
+  /// A least value may be attained where some strengths are large, so what comes out too wide is searched
+  /// within a wider limit again.
+  std::vector<ValueInterval> enclose_within_limits(const UnboundedPolytope& unbounded) {
+    std::vector<ValueInterval> intervals(objectives_.size());
+    std::vector<std::size_t> wide(objectives_.size());
+    std::iota(wide.begin(), wide.end(), std::size_t{0});
+    for (const double factor : {0.0, 1e1, 1e3, 1e5}) {
+      const auto within = factor > 0 ? limited_polytope(problem_, unbounded, factor) : unbounded.within;
+      if (wide.empty() || !within->centre.found) break;
+      std::vector<barrier::Objective> objectives;
+      for (const std::size_t k : wide) objectives.push_back(objectives_[k]);
+      const std::vector<ValueInterval> found =
+          enclose_least_values(problem_, *within, *unbounded.within->equations, objectives, options_);
+      for (std::size_t k = 0; k < wide.size(); ++k) intervals[wide[k]].meet(found[k]);
+      std::erase_if(wide, [&](std::size_t k) { return is_narrow(intervals[k], problem_, options_.gap); });
+    }
+    return intervals;
+  }
+
   void store(const Target& target, const ValueInterval& interval) {
     const bool is_zero = interval.lower == 0 && interval.upper == 0;
     auto [lower, upper] =
@@ -143,6 +211,11 @@ class BarrierSearch {
     Reactions& r = result_.reactions;
     for (Eigen::Index row = 0; row < r.count(); ++row) {
       for (const int end : {0, 1}) {
+        if (r.ray(row, end) >= 0) {
+          r.value(row, end) = r.lower(row, end);
+          r.outcome(row, end) = Outcome::kUnbounded;
+          continue;
+        }
         const auto [value, outcome] = enclosed_value(r.lower(row, end), r.upper(row, end), options_.gap,
                                                      problem_.units.weight_in_scene());
         r.value(row, end) = value;
@@ -158,6 +231,7 @@ class BarrierSearch {
   std::vector<ReactionSum> sums_;
   std::vector<Target> targets_;
   std::vector<barrier::Objective> objectives_;
+  std::map<int, std::int32_t> force_rays_, reaction_rays_;  ///< number of a ray in the search, row
   BarrierRanges result_;
 };
 

@@ -15,14 +15,15 @@ namespace indet {
 /// The second and third stage of an analysis by the barrier method: intervals of all values that were asked
 /// for, without states.
 struct BarrierRanges {
-  Extrema extrema;        ///< claims kEnclosed, no vertex
+  Extrema extrema;        ///< claims kEnclosed, no vertex; or kUnbounded, with a ray
   Enclosures enclosures;  ///< their intervals
   Reactions reactions;    ///< complete
 };
 
 /// `contacts`: ascending. A value that is 0 in all states, because no edge of its contact is open, needs no
-/// search. Where F is empty there are no values, where it is unbounded
-/// all are kFailed. Throws Interrupted.
+/// search. Where F is empty there are no values. Where it is unbounded, those that grow without limit have a
+/// ray, and the others are found in the part of F within a limit; all are kFailed if nothing is proven of it
+/// (ForcePolytope::unbounded). Throws Interrupted.
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
                                   const std::vector<int>& contacts, bool reactions,
                                   const IntervalOptions& options);

@@ -17,14 +17,16 @@ namespace {
 
 class IntervalSearch {
  public:
-  IntervalSearch(const ForcePolytope& polytope, std::span<const barrier::Objective> objectives,
+  IntervalSearch(const EquilibriumProblem& problem, const CentralPolytope& central,
+                 const barrier::VerifiedEquations& equations, std::span<const barrier::Objective> objectives,
                  const IntervalOptions& options)
-      : polytope_(polytope),
-        central_(*polytope.central),
+      : problem_(problem),
+        central_(central),
+        equations_(equations),
         objectives_(objectives),
         options_(options),
-        least_(1 / polytope.problem.units.internal_in_weights()),
-        intervals_(objectives.size(), ValueInterval{-kInfinity, kInfinity, kNaN, 0}) {}
+        least_(1 / problem.units.internal_in_weights()),
+        intervals_(objectives.size()) {}
 
   std::vector<ValueInterval> run() {
     std::vector<std::size_t> wanted(objectives_.size());
@@ -32,7 +34,7 @@ class IntervalSearch {
     // A part of the width is left for what the repair and the proofs cost.
     for (const auto& [share, least_aim] : {std::pair(0.5, 1e-8), {0.5, 0.1}, {0.25, 0.3}}) {
       search(wanted, share, least_aim);
-      std::erase_if(wanted, [&](std::size_t k) { return is_narrow(intervals_[k]); });
+      std::erase_if(wanted, [&](std::size_t k) { return is_narrow(intervals_[k], problem_, options_.gap); });
       settled_ -= static_cast<std::int64_t>(wanted.size());
     }
     const auto total = static_cast<std::int64_t>(objectives_.size());
@@ -41,12 +43,6 @@ class IntervalSearch {
   }
 
  private:
-  bool is_narrow(const ValueInterval& interval) const {
-    const double size = std::max(least_, std::min(std::abs(interval.lower), std::abs(interval.upper)));
-    return interval.upper - interval.lower <= options_.gap * size;
-  }
-
-  /// Searches these objectives on all threads, the calling one among them.
   void search(const std::vector<std::size_t>& wanted, double share, double least_aim) {
     barrier::LockStepOptions lock_step;
     lock_step.gap = share * options_.gap;
@@ -66,26 +62,23 @@ class IntervalSearch {
 
   void settle(const barrier::Iterate& iterate) {
     const barrier::Objective& objective = objectives_[iterate.objective];
-    const std::vector<double> x = central_.equations->repaired(iterate.x);
-    const barrier::ValueBounds bounds = central_.equations->enclose(objective, x, iterate.y);
-    ValueInterval& interval = intervals_[iterate.objective];
-    interval.iterations += iterate.iterations;
-    const bool is_better = bounds.upper - bounds.lower < interval.upper - interval.lower;
-    if (is_better || std::isnan(interval.sensitivity)) interval.sensitivity = sensitivity(x, iterate.y);
-    interval.lower = std::max(interval.lower, bounds.lower);
-    interval.upper = std::min(interval.upper, bounds.upper);
+    const std::vector<double> x = equations_.repaired(iterate.x);
+    const barrier::ValueBounds bounds = equations_.enclose(objective, x, iterate.y);
+    intervals_[iterate.objective].meet(
+        {bounds.lower, bounds.upper, sensitivity(x, iterate.y), iterate.iterations});
     ++settled_;
   }
 
   double sensitivity(const std::vector<double>& x, std::span<const double> y) const {
-    const EquilibriumProblem& problem = polytope_.problem;
-    const Eigen::VectorXd motion = on_equations(problem, central_.structure, y);
-    const Eigen::Map<const Eigen::VectorXd> strengths(x.data(), static_cast<Eigen::Index>(x.size()));
-    return sensitivity_to_normals(problem, motion, problem.units.scene(problem.state(strengths)));
+    const Eigen::VectorXd motion = on_equations(problem_, central_.structure, y);
+    // A limit has a slack more.
+    const Eigen::Map<const Eigen::VectorXd> strengths(x.data(), problem_.unknowns());
+    return sensitivity_to_normals(problem_, motion, problem_.units.scene(problem_.state(strengths)));
   }
 
-  const ForcePolytope& polytope_;
+  const EquilibriumProblem& problem_;
   const CentralPolytope& central_;
+  const barrier::VerifiedEquations& equations_;
   std::span<const barrier::Objective> objectives_;
   const IntervalOptions& options_;
   double least_;  ///< 1 mg in the unit of the problem
@@ -95,10 +88,27 @@ class IntervalSearch {
 
 }  // namespace
 
-std::vector<ValueInterval> enclose_least_values(const ForcePolytope& polytope,
+void ValueInterval::meet(const ValueInterval& other) {
+  const bool is_better = other.upper - other.lower < upper - lower;
+  if (is_better || std::isnan(sensitivity)) sensitivity = other.sensitivity;
+  lower = std::max(lower, other.lower);
+  upper = std::min(upper, other.upper);
+  iterations += other.iterations;
+}
+
+bool is_narrow(const ValueInterval& interval, const EquilibriumProblem& problem, double gap) {
+  const double weight = 1 / problem.units.internal_in_weights();
+  const double size = std::max(weight, std::min(std::abs(interval.lower), std::abs(interval.upper)));
+  const double width = interval.upper - interval.lower;
+  return std::isfinite(width) && width <= gap * size;
+}
+
+std::vector<ValueInterval> enclose_least_values(const EquilibriumProblem& problem,
+                                                const CentralPolytope& central,
+                                                const barrier::VerifiedEquations& equations,
                                                 std::span<const barrier::Objective> objectives,
                                                 const IntervalOptions& options) {
-  return IntervalSearch(polytope, objectives, options).run();
+  return IntervalSearch(problem, central, equations, objectives, options).run();
 }
 
 }  // namespace indet

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "libindet/barrier/lock_step.h"
-#include "libindet/polytope/force_polytope.h"
+#include "libindet/base/constants.h"
+#include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/polytope/central_polytope.h"
 
 namespace indet {
 
@@ -20,15 +22,23 @@ struct IntervalOptions {
 
 /// What is known of a least value, in the unit of the problem.
 struct ValueInterval {
-  double lower = 0, upper = 0;  ///< rigorous; infinite where nothing is proven
-  double sensitivity = 0;       ///< sensitivity_to_normals, in the scene's unit of force
+  double lower = -kInfinity, upper = kInfinity;  ///< rigorous; infinite where nothing is proven
+  double sensitivity = kNaN;                     ///< sensitivity_to_normals, in the scene's unit of force
   int iterations = 0;
+
+  /// What is known from both together.
+  void meet(const ValueInterval& other);
 };
+/// No wider than `gap` times max(1 mg, |value|).
+bool is_narrow(const ValueInterval& interval, const EquilibriumProblem& problem, double gap);
 
 /// Encloses the least values of objectives on the edges' strengths, by the barrier method: every interval is
 /// proven (barrier::VerifiedEquations), whatever the iteration did. One that comes out wider than asked for
-/// is searched again with more care, twice at most. Precondition: polytope.central.
-std::vector<ValueInterval> enclose_least_values(const ForcePolytope& polytope,
+/// is searched again with more care, twice at most. `central`: of the problem, perhaps within a limit.
+/// `equations`: of the same problem, and within a limit if that is.
+std::vector<ValueInterval> enclose_least_values(const EquilibriumProblem& problem,
+                                                const CentralPolytope& central,
+                                                const barrier::VerifiedEquations& equations,
                                                 std::span<const barrier::Objective> objectives,
                                                 const IntervalOptions& options);
 

@@ -134,5 +134,20 @@ class Special(program.ProgramTest):
         self.assertIn("0 contradictions", self.run_indet("verify", "r.h5").stdout)
 
 
+    def test_forces_without_limit_have_rays(self):
+        """Two contacts at ±45° and μ = 3: R ≥ mg/(2 (cos φ + μ sin φ)), and the disk can be jammed."""
+        packing = self.packing(program.groove(np.pi / 4, mu=3))
+        shown = json.loads(self.run_indet("--json", "analyze", packing, "--method", "barrier", "-o", "r.h5").stdout)
+        self.assertEqual((shown["status"], shown["method"], shown["unbounded"]), ("unbounded", "barrier", 4))
+        self.assertEqual(shown["certified"], 8)
+        with h5py.File(self.folder / "r.h5") as file:
+            mg = file["equilibrium"].attrs["force_unit"]
+            np.testing.assert_allclose(file["ranges/R_min"][()] / mg, 1 / (2 * np.sqrt(0.5) * 4), atol=1e-6)
+            self.assertTrue(np.isposinf(file["ranges/R_max"][()]).all())
+            ray = file["extremal/rays"][()][file["ranges/ray"][0, 1]]
+            np.testing.assert_allclose(ray[0::2], ray[0], rtol=1e-9)
+        self.assertIn("0 contradictions", self.run_indet("verify", "r.h5").stdout)
+
+
 if __name__ == "__main__":
     program.main()

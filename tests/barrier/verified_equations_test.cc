@@ -11,6 +11,7 @@
 #include <optional>
 #include <tuple>
 
+#include "libindet/barrier/feasibility.h"
 #include "libindet/base/constants.h"
 #include "libindet/base/random.h"
 #include "libindet/packing/validate.h"
@@ -71,6 +72,83 @@ TEST(VerifiedEquations, ProveNothingOfDependentRows) {
     const Objective objective = {{0, 1.0}};
     EXPECT_EQ(verified.enclose(objective, verified.repaired(centre.x), centre.y).upper, kInfinity);
   }
+}
+
+/// A pile that friction can jam, and the same within a limit.
+struct LimitedSet : StrengthSet {
+  explicit LimitedSet(const Packing& packing)
+      : StrengthSet(packing),
+        ray(find_boundedness(structure, cholesky).ray),
+        within(problem, rows, limit()) {}
+
+  Limit limit() const {
+    Limit result{{}, 1e3};
+    for (std::size_t k = 0; k < ray.size(); ++k) {
+      if (ray[k] > 0) result.columns.push_back(static_cast<int>(k));
+    }
+    return result;
+  }
+
+  std::vector<double> ray;
+  BlockStructure within;
+};
+
+TEST(VerifiedEquations, ALimitIsARowAndAColumnMore) {
+  const LimitedSet set(zoo::random_pile(1, 12, 1.5));
+  ASSERT_FALSE(set.ray.empty());
+  const BlockStructure& s = set.within;
+  ASSERT_EQ(s.rows(), set.structure.rows() + 1);
+  ASSERT_EQ(s.columns(), set.structure.columns() + 1);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(s.rows(), s.columns());
+  const Eigen::MatrixXd all = set.problem.edge_matrix;
+  for (int i = 0; i < s.rows(); ++i) {
+    const int equation = s.equation_of_place()[static_cast<std::size_t>(i)];
+    EXPECT_EQ(equation < 0, i == s.limit_place());
+    if (equation >= 0) A.row(i).head(all.cols()) = all.row(equation);
+  }
+  for (const int k : s.limit().columns) A(s.limit_place(), k) = 1;
+  A(s.limit_place(), s.columns() - 1) = 1;
+  EXPECT_EQ(s.load()[static_cast<std::size_t>(s.limit_place())], 1e3);
+  Random random(7);
+  std::vector<double> x, y;
+  for (int k = 0; k < s.columns(); ++k) x.push_back(random.uniform());
+  for (int i = 0; i < s.rows(); ++i) y.push_back(random.uniform());
+  EXPECT_LE((vector(product(s, x)) - A * vector(x)).norm(), 1e-13);
+  EXPECT_LE((vector(transposed_product(s, y)) - A.transpose() * vector(y)).norm(), 1e-13);
+  BlockCholesky cholesky(s);
+  ASSERT_TRUE(cholesky.factor(x));
+  std::vector<double> solved = y;
+  cholesky.solve(solved);
+  EXPECT_LE((A * vector(x).asDiagonal() * A.transpose() * vector(solved) - vector(y)).norm(), 1e-10);
+}
+
+TEST(VerifiedEquations, BoundsHoldBeyondALimit) {
+  Random random(3);
+  int finite = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    LimitedSet set(zoo::random_pile(seed, 12, 1.5));
+    if (set.ray.empty()) continue;
+    BlockCholesky cholesky(set.within);
+    const AnalyticCentre centre = find_analytic_centre(set.within, cholesky);
+    ASSERT_TRUE(centre.found);
+    const VerifiedEquations verified(set.problem, set.within, centre);
+    const Eigen::VectorXd inside = vector(centre.x).head(set.problem.unknowns());
+    const Eigen::VectorXd ray = vector(set.ray);
+    for (const Objective& objective : set.objectives()) {
+      Eigen::VectorXd c = Eigen::VectorXd::Zero(ray.size());
+      for (const auto& [k, weight] : objective) c[k] += weight;
+      std::vector<double> y = centre.y;
+      for (double& value : y) value *= -random.uniform();
+      const double lower = verified.enclose(objective, centre.x, y).lower;
+      for (const double far : {0.0, 1e6, 1e12}) EXPECT_LE(lower, c.dot(inside + far * ray));
+      if (c.dot(ray) < -1e-9) {
+        EXPECT_EQ(lower, -kInfinity);
+      }
+      finite += std::isfinite(lower) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(finite, 100);
 }
 
 TEST(VerifiedEquations, EncloseEverywhereWhatIsTheSameEverywhere) {

@@ -8,6 +8,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/range/analyze.h"
+#include "tests/support/compare.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
@@ -107,6 +108,34 @@ TEST(BarrierRanges, AgreeWithLinearProgramsInPiles) {
   }
 }
 
+TEST(BarrierRanges, AgreeWithLinearProgramsWhereForcesAreUnbounded) {
+  int found = 0, infinite = 0, limited = 0;
+  for (std::uint64_t seed = 0; seed < 18; ++seed) {
+    SCOPED_TRACE(seed);
+    const Packing packing = zoo::random_pile(seed, 4 + static_cast<int>(seed), 1.5);
+    const ForceRanges barrier = ranges_by(Method::kBarrier, packing);
+    if (barrier.status != PolytopeStatus::kUnbounded) continue;
+    expect_intervals_meet(ranges_by(Method::kLp, packing), barrier);
+    found += barrier.method == Method::kBarrier ? 1 : 0;
+    for (Eigen::Index i = 0; i < barrier.value.rows(); ++i) {
+      for (int column = 0; column < 4; ++column) {
+        if (!std::isinf(barrier.value(i, column))) {
+          ++limited;
+          continue;
+        }
+        ++infinite;
+        const Eigen::VectorXd ray = barrier.rays.row(barrier.ray(i, column));
+        EXPECT_TRUE(test::is_recession_ray(packing, ray, 1e-12));
+        const double growth = ray[2 * i + (column >= kMinT ? 1 : 0)];
+        EXPECT_GT(column == kMaxR || column == kMaxT ? growth : -growth, 0);
+      }
+    }
+  }
+  EXPECT_GE(found, 8);
+  EXPECT_GT(infinite, 300);
+  EXPECT_GT(limited, 150);
+}
+
 TEST(BarrierRanges, AreAsNarrowAsAskedFor) {
   const Packing packing = bounded_pile();
   const ForceRanges lp = ranges_by(Method::kLp, packing);
@@ -120,15 +149,17 @@ TEST(BarrierRanges, AreAsNarrowAsAskedFor) {
 }
 
 TEST(BarrierRanges, DoNotDependOnTheNumberOfThreads) {
-  const Packing packing = bounded_pile();
-  const ForceRanges one = ranges_by(Method::kBarrier, packing);
-  ASSERT_EQ(one.method, Method::kBarrier);
-  for (const int threads : {2, 3}) {
-    const ForceRanges several = ranges_by(Method::kBarrier, packing, 1e-6, threads);
-    EXPECT_TRUE((one.lower == several.lower).all());
-    EXPECT_TRUE((one.upper == several.upper).all());
-    EXPECT_TRUE((one.sensitivity == several.sensitivity).all());
-    EXPECT_EQ(one.pivots, several.pivots);
+  for (const Packing& packing : {bounded_pile(), zoo::random_pile(38, 42, 1.5)}) {
+    const ForceRanges one = ranges_by(Method::kBarrier, packing);
+    ASSERT_EQ(one.method, Method::kBarrier);
+    for (const int threads : {2, 3}) {
+      const ForceRanges several = ranges_by(Method::kBarrier, packing, 1e-6, threads);
+      EXPECT_TRUE((one.lower == several.lower).all());
+      EXPECT_TRUE((one.upper == several.upper).all());
+      EXPECT_TRUE((one.ray == several.ray).all());
+      EXPECT_TRUE(one.rays == several.rays);
+      EXPECT_EQ(one.pivots, several.pivots);
+    }
   }
 }
 
@@ -225,8 +256,9 @@ TEST(MethodChoice, TakesTheBarrierMethodForLargePackings) {
   EXPECT_FALSE(choose_method(10000, {}).reason.empty());
 }
 
-TEST(MethodChoice, FallsBackOnLinearProgramsWhereForcesAreUnbounded) {
-  const ForceRanges ranges = ranges_by(Method::kBarrier, zoo::wedge(1.4, 0.3));
+TEST(MethodChoice, FallsBackOnLinearProgramsWhereALimitIsExactAlone) {
+  // T = 1/2 in every state, for the torques of two contacts at each of which both edges are unlimited.
+  const ForceRanges ranges = ranges_by(Method::kBarrier, zoo::pinched_disk(0.3));
   EXPECT_EQ(ranges.status, PolytopeStatus::kUnbounded);
   EXPECT_EQ(ranges.method, Method::kLp);
   EXPECT_NE(ranges.reason.find("unbounded"), std::string::npos);

@@ -81,6 +81,12 @@ class SimulateTest(program.ProgramTest):
         with h5py.File(self.folder / "q.h5") as file:
             self.assertEqual(set(file["contacts/mu"][()]), {0.6})
 
+    def test_says_before_a_long_simulation_what_to_expect(self):
+        done = self.run_indet("simulate", "--protocol", "cd1", "--disks", "3200", "--time-limit", "0.002", "-o", "long.h5", status=5)
+        self.assertIn("3200 disks by contact dynamics take about 3 minutes of processor time", done.stderr)
+        done = self.run_indet("simulate", "--protocol", "cd1", *SMALL, "-o", "short.h5")
+        self.assertNotIn("processor time", done.stderr)
+
     def test_scene_file_is_used_and_flags_override_it(self):
         (self.folder / "scene.toml").write_text(
             'disks = 7\ncontainer = "funnel"\nfriction = { disk = 0.5, wall = 0.4 }\n[[wall]]\npoint = [0, -1]\nnormal = [0, 1]\n')
