@@ -191,13 +191,14 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
-    BarrierRanges found =
-        find_barrier_ranges(packing, polytope, contacts, options.reactions, interval_options(options));
+    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, options.reactions,
+                                              interval_options(options), options.duals);
     found.extrema.reason = std::move(choice.reason);
     stopwatch.mark("ranges");
     ForceRanges ranges =
         assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
     ranges.reactions = std::move(found.reactions);
+    ranges.duals = std::move(found.duals);
     stopwatch.mark("measures");
     ranges.seconds = std::move(seconds);
     return ranges;

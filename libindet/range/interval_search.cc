@@ -20,13 +20,14 @@ namespace {
 class IntervalSearch {
  public:
   IntervalSearch(const ForcePolytope& polytope, std::span<const barrier::Objective> objectives,
-                 const IntervalOptions& options)
+                 const IntervalOptions& options, const std::vector<bool>& keeps_proof)
       : polytope_(polytope),
         central_(*polytope.central),
         objectives_(objectives),
         options_(options),
+        keeps_proof_(keeps_proof),
         least_(1 / polytope.problem.units.internal_in_weights()),
-        intervals_(objectives.size(), ValueInterval{-kInfinity, kInfinity, kNaN, 0}) {}
+        intervals_(objectives.size(), ValueInterval{-kInfinity, kInfinity, kNaN, 0, {}, {}}) {}
 
   std::vector<ValueInterval> run() {
     std::vector<std::size_t> wanted(objectives_.size());
@@ -100,6 +101,11 @@ class IntervalSearch {
     interval.iterations += iterate.iterations;
     const bool is_better = bounds.upper - bounds.lower < interval.upper - interval.lower;
     if (is_better || std::isnan(interval.sensitivity)) interval.sensitivity = sensitivity(x, iterate.y);
+    if (!keeps_proof_.empty() && keeps_proof_[iterate.objective]) {
+      if (interval.y.empty() || bounds.lower > interval.lower)
+        interval.y.assign(iterate.y.begin(), iterate.y.end());
+      if (interval.x.empty() || bounds.upper < interval.upper) interval.x = x;
+    }
     interval.lower = std::max(interval.lower, bounds.lower);
     interval.upper = std::min(interval.upper, bounds.upper);
     ++settled_;
@@ -116,6 +122,7 @@ class IntervalSearch {
   const CentralPolytope& central_;
   std::span<const barrier::Objective> objectives_;
   const IntervalOptions& options_;
+  const std::vector<bool>& keeps_proof_;
   double least_;  ///< 1 mg in the unit of the problem
   std::vector<ValueInterval> intervals_;
   std::atomic<std::int64_t> settled_ = 0;
@@ -127,8 +134,9 @@ class IntervalSearch {
 
 std::vector<ValueInterval> enclose_least_values(const ForcePolytope& polytope,
                                                 std::span<const barrier::Objective> objectives,
-                                                const IntervalOptions& options) {
-  return IntervalSearch(polytope, objectives, options).run();
+                                                const IntervalOptions& options,
+                                                const std::vector<bool>& keeps_proof) {
+  return IntervalSearch(polytope, objectives, options, keeps_proof).run();
 }
 
 }  // namespace indet

@@ -23,13 +23,16 @@ struct ValueInterval {
   double lower = 0, upper = 0;  ///< rigorous; infinite where nothing is proven
   double sensitivity = 0;       ///< sensitivity_to_normals, in the scene's unit of force
   int iterations = 0;
+  std::vector<double> x, y;  ///< that prove `upper` and `lower`, where asked for; x: one a column, y: a row
 };
 
 /// Encloses the least values of objectives on the edges' strengths, by the barrier method: every interval is
 /// proven (barrier::VerifiedEquations), whatever the iteration did. One that comes out wider than asked for
-/// is searched again with more care, twice at most. Precondition: polytope.central.
+/// is searched again with more care, twice at most. `keeps_proof`: one an objective, or none for no x and y.
+/// Precondition: polytope.central.
 std::vector<ValueInterval> enclose_least_values(const ForcePolytope& polytope,
                                                 std::span<const barrier::Objective> objectives,
-                                                const IntervalOptions& options);
+                                                const IntervalOptions& options,
+                                                const std::vector<bool>& keeps_proof = {});
 
 }  // namespace indet
