@@ -213,6 +213,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (options.reactions)
     reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
+  if (!polytope.central) add_centre(polytope);
   Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima);
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
