@@ -7,6 +7,7 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
+#include "libindet/range/dual_collector.h"
 #include "libindet/range/functional.h"
 
 namespace indet {
