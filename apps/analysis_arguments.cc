@@ -65,9 +65,11 @@ ContactChoice parse_contacts(const AnalysisArguments& arguments, int contacts) {
     choice.seed = arguments.seed;
     return choice;
   }
-  if (arguments.seed != AnalysisArguments().seed && arguments.neighbour != "random")
+  if (arguments.seed != AnalysisArguments().seed && arguments.neighbour != "random" &&
+      !arguments.duals.starts_with(prefix))
     throw UsageError(
-        "--seed has no effect without --contacts sample:K or --neighbour random, which draw by chance");
+        "--seed has no effect without --contacts sample:K, --duals sample:K or --neighbour random, which "
+        "draw by chance");
   if (text == "all") return choice;
   choice.kind = ContactChoice::Kind::kList;
   if (text.find_first_not_of("0123456789,-") != std::string::npos) refuse_contacts(text);
@@ -103,6 +105,23 @@ StateChoice parse_states(const AnalysisArguments& arguments, int contacts) {
                     text));
   choice.contacts = StateChoice::Contacts::kList;
   choice.list = parse_contact_list("--states-of", text, text, contacts);
+  return choice;
+}
+
+DualChoice parse_duals(const AnalysisArguments& arguments) {
+  DualChoice choice;
+  choice.seed = arguments.seed;
+  const std::string& text = arguments.duals;
+  const std::string prefix = "sample:";
+  if (text == "none") return choice;
+  choice.kind = text == "all" ? DualChoice::Kind::kAll : DualChoice::Kind::kSample;
+  if (text == "all") return choice;
+  const std::optional<int> size =
+      text.starts_with(prefix) ? parse_count(text.substr(prefix.size())) : std::nullopt;
+  if (!size || *size == 0)
+    throw UsageError(
+        fmt::format("--duals {}: expected none, all, or sample:K (K contacts drawn at random)", text));
+  choice.sample_size = *size;
   return choice;
 }
 
@@ -143,7 +162,7 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
   command
       .add_option("--seed", arguments.seed,
                   std::string("Seed of the random numbers of --contacts sample:K and of --neighbour random") +
-                      (levels == Levels::kAll ? ", and of --accuracy estimate" : ""))
+                      (levels == Levels::kAll ? ", of --duals sample:K, and of --accuracy estimate" : ""))
       ->check(not_negative())
       ->capture_default_str();
   if (levels == Levels::kAll) {
@@ -161,6 +180,15 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
             "Whether to find the ranges of the reactions of walls and fixed disks, too: all; none; auto: "
             "all, but none where some contacts only are asked for, or estimates")
         ->check(CLI::IsMember({"auto", "all", "none"}))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--duals", arguments.duals,
+            "barrier: of which contacts to store the multipliers and a state that prove each value, so "
+            "that verify can check it without trust in this program: none; all; or sample:K, that is "
+            "K of those whose ranges are found, drawn at random with --seed (2.4 MB a contact of "
+            "10000 disks)")
+        ->type_name("none|sample:K|all")
         ->capture_default_str();
   }
   command
@@ -223,6 +251,7 @@ AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const C
           "--calibrate has no effect without --accuracy estimate, whose predictions it is about");
     options.contacts = parse_contacts(arguments, contacts);
   }
+  options.duals = parse_duals(arguments);
   const bool wants_all = options.contacts.kind == ContactChoice::Kind::kAll && !options.estimate;
   options.reactions = arguments.reactions == "all" || (arguments.reactions == "auto" && wants_all);
   options.formulation = parse_formulation(arguments.formulation);

@@ -20,6 +20,7 @@ struct AnalysisArguments {
   std::uint64_t seed = 1;
   std::optional<int> calibrate;    ///< of --accuracy estimate
   std::string reactions = "auto";  ///< of analyze
+  std::string duals = "none";      ///< of analyze
   std::string formulation = "auto";
   std::string states = "auto";
   std::string states_of = "all";

@@ -142,6 +142,7 @@ nlohmann::json to_json(const Packing& packing, const ForceRanges& ranges, const 
                {"states", ranges.states.rows()},
                {"extremal_states", to_string(ranges.state_kind)},
                {"states_of", to_string(ranges.states_of)},
+               {"duals", ranges.duals.contacts.size()},
                {"widest_enclosure", json_number(firmness(ranges).widest_enclosure)},
                {"infinite_enclosures", firmness(ranges).half_open},
                {"sensitivity", json_number(firmness(ranges).sensitivity)},
@@ -257,6 +258,7 @@ void print_quality(const ForceRanges& ranges) {
   fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
              counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
   fmt::print("{}\n", describe_kept_states(ranges));
+  if (ranges.duals.are_kept()) fmt::print("{}\n", describe_duals(ranges.duals));
 }
 
 void print_summary(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
@@ -325,6 +327,16 @@ int run(const AnalyzeCommand& options, const Context& context) {
     analysis.gap = *options.gap;
     analysis.method = Method::kBarrier;  // intervals are wanted
   }
+  if (analysis.duals.kind != DualChoice::Kind::kNone) {
+    if (analysis.method.value_or(Method::kBarrier) != Method::kBarrier)
+      throw UsageError(
+          fmt::format("--duals {} has no effect without --method barrier, whose multipliers it is about",
+                      options.arguments.duals));
+    if (options.arguments.states == "canonical" || options.arguments.states_of != "all")
+      throw UsageError(
+          "--duals and extremal states do not go together: with a state kept, the value is proven by it");
+    analysis.method = Method::kBarrier;
+  }
   if (analysis.method == Method::kBarrier && options.arguments.states == "solver")
     throw UsageError(
         "--method barrier lands inside of optimal faces and not on extremal states; take --extremal-states "
@@ -348,6 +360,10 @@ int run(const AnalyzeCommand& options, const Context& context) {
     std::cout << to_json(packing, ranges, output.string()).dump(2) << '\n';
   } else if (context.prints_report()) {
     print_summary(packing, ranges, output.string());
+    if (analysis.duals.kind != DualChoice::Kind::kNone && !ranges.duals.are_kept())
+      fmt::print(
+          "no multipliers stored: there are none without an analytic centre, nor where rounding hides which "
+          "edges are closed\n");
   }
   if (ranges.status == PolytopeStatus::kEmpty) return ranges.doubtful ? kUncertain : kNoAdmissibleState;
   return ranges.imprecise + ranges.failed + ranges.reactions.uncertain() > 0 ? kUncertain : kDone;

@@ -16,6 +16,8 @@ EstimateOptions parse_estimate(const AnalysisArguments& arguments) {
   if (arguments.formulation != "auto")
     refuse("--formulation", "has no effect, as no linear programs are solved");
   if (arguments.reactions == "all") refuse("--reactions all", "has no effect, as no reactions are estimated");
+  if (arguments.duals != "none")
+    refuse("--duals " + arguments.duals, "has no effect, as estimates have no multipliers");
   EstimateOptions options;
   options.calibration = arguments.calibrate.value_or(options.calibration);
   options.seed = arguments.seed;

@@ -117,6 +117,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
     json["ranges"].update({{"states", r.states.rows()},
                            {"extremal_states", to_string(r.state_kind)},
                            {"states_of", to_string(r.states_of)},
+                           {"duals", r.duals.contacts.size()},
                            {"mean_delta_R", json_number(extremes(r.delta_R).mean())},
                            {"max_delta_R", json_number(largest(r.delta_R))},
                            {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
@@ -298,6 +299,7 @@ void print_ranges(const ForceRanges& r) {
     print_line("  dT (mg)", measure(r.d_T));
   }
   if (r.status != PolytopeStatus::kEmpty) print_line("  extremal states", describe_kept_states(r));
+  if (r.duals.are_kept()) print_line("  duals", describe_duals(r.duals));
   print_line("  found by", fmt::format("{}: {}, {}", describe_method(r),
                                        counted(r.solves, "search", "searches"), counted(r.pivots, "pivot")));
 }

@@ -45,4 +45,9 @@ std::string describe_missing_states(const KeptStates& kept) {
       describe_contacts(kept));
 }
 
+std::string describe_duals(const Duals& duals) {
+  return fmt::format("multipliers and states stored that prove the values of {}",
+                     counted(duals.contacts.size(), "contact"));
+}
+
 }  // namespace indet::app

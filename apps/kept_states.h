@@ -13,4 +13,7 @@ std::string describe_kept_states(const ForceRanges& ranges);
 /// states; …". Precondition: it does not keep all.
 std::string describe_missing_states(const KeptStates& kept);
 
+/// "multipliers and states stored that prove the values of 20 contacts". Precondition: they are kept.
+std::string describe_duals(const Duals& duals);
+
 }  // namespace indet::app

@@ -405,6 +405,10 @@ inline constexpr double kWholeNumber = 1e-9;
 /// Above this number of unknowns no matrix with a row an unknown is made dense.
 inline constexpr int kMostForDense = 12000;
 
+/// Sums over all equations or edges, from which verify bounds values by stored multipliers, are taken to be
+/// right to this, relative to the sum of the sizes of their terms.
+inline constexpr double kSumOfProof = 1e-14;
+
 /// verify solves linear programs of its own, to check intervals, for packings of up to so many unknowns.
 inline constexpr int kMostForPrograms = 3000;
 

@@ -318,11 +318,33 @@ void check_reactions(const Hdf5File& file, const Reactions& reactions) {
   }
 }
 
+/// Proofs are of contacts that there are, and no table of them is missing.
+void check_duals(const Hdf5File& file, const Duals& duals) {
+  const auto refuse = [&](const char* object, const std::string& reason) { fail(file, object, reason); };
+  const auto walls = static_cast<Eigen::Index>(file.shape("/walls/id", 1)[0]);
+  const auto disks = static_cast<Eigen::Index>(file.shape("/particles/disks/id", 1)[0]);
+  const auto contacts = static_cast<Eigen::Index>(file.shape("/contacts/body_a", 1)[0]);
+  const Eigen::Index count = duals.contacts.size();
+  if (duals.multipliers.rows() != 4 * count || duals.points.rows() != 4 * count)
+    refuse("/duals", fmt::format("has not four values for each of its {} contacts", count));
+  if (count == 0) return;
+  const Eigen::Index bounds =
+      file.has("/contacts/bounds") ? static_cast<Eigen::Index>(force_bounds(read_packing(file)).size()) : 0;
+  if (const Eigen::Index rows = 3 * disks + 2 * walls + 3 + bounds; duals.bounding.size() != rows)
+    refuse("/duals/bounding", fmt::format("has not {} entries", rows));
+  for (Eigen::Index d = 0; d < count; ++d) {
+    const std::int32_t contact = duals.contacts[d];
+    if (contact < (d == 0 ? 0 : duals.contacts[d - 1] + 1) || contact >= contacts)
+      refuse("/duals/contacts", "is no ascending list of contacts");
+  }
+}
+
 }  // namespace
 
 void write_ranges_part(Hdf5File& file, const ForceRanges& ranges) {
   for (const char* group : {"/equilibrium", "/ranges", "/extremal"}) file.make_group(group);
   if (ranges.reactions.count() > 0) file.make_group("/reactions");
+  if (ranges.duals.are_kept()) file.make_group("/duals");
   visit_fields(ranges, FieldWriter(file, ranges, false));
   if (ranges.choice == ContactChoice::Kind::kSample) file.set_attribute("/ranges", "confidence", kConfidence);
   file.set_attribute("/ranges", "sha256", file.sha256({"/extremal", "/ranges"}));
@@ -363,6 +385,8 @@ ForceRanges read_ranges(const Hdf5File& file) {
   check_request(file, ranges);
   check_pointers(file, ranges);
   check_reactions(file, ranges.reactions);
+  check_duals(file, ranges.duals);
+  if (!ranges.duals.are_kept()) ranges.duals = {};
   ranges.seconds = file.number_attributes("/provenance/timings");
   return ranges;
 }

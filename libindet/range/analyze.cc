@@ -242,7 +242,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
     BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, options.reactions,
-                                              interval_options(options, "force ranges"));
+                                              interval_options(options, "force ranges"), options.duals);
     stopwatch.mark("ranges");
     if (!is_left_to_programs(packing, polytope, found)) {
       found.extrema.reason = std::move(choice.reason);
@@ -256,6 +256,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
       ForceRanges ranges =
           assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
       ranges.reactions = std::move(found.reactions);
+      ranges.duals = std::move(found.duals);
       stopwatch.mark("measures");
       ranges.seconds = std::move(seconds);
       return ranges;
@@ -275,6 +276,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (options.reactions)
     reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
+  if (!polytope.central) add_centre(polytope);
   Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima);
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =

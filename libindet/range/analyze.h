@@ -8,6 +8,7 @@
 #include "libindet/lp/lp_solver.h"
 #include "libindet/packing/packing.h"
 #include "libindet/range/contact_choice.h"
+#include "libindet/range/duals.h"
 #include "libindet/range/estimates.h"
 #include "libindet/range/force_ranges.h"
 #include "libindet/range/method.h"
@@ -33,6 +34,7 @@ struct AnalyzeOptions {
   bool reactions = true;  ///< of walls and fixed disks: find their ranges, too
   /// Estimates in place of ranges, by kBarrier, of all contacts: `contacts` and `states` do not matter.
   std::optional<EstimateOptions> estimate;
+  DualChoice duals;            ///< of kBarrier: which proofs of values the result keeps
   StateChoice states;          ///< which extremal states the result keeps
   bool solver_states = false;  ///< where it keeps all canonical ones: also tell where the solver landed
                                ///< (ForceRanges::solver_states)

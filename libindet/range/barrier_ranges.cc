@@ -4,10 +4,14 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/error.h"
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/polytope/unbounded_polytope.h"
+#include "libindet/range/dual_collector.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/growth_search.h"
 
@@ -25,11 +29,13 @@ struct Target {
 class BarrierSearch {
  public:
   BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
-                bool reactions, const IntervalOptions& options)
-      : polytope_(polytope),
+                bool reactions, const IntervalOptions& options, const DualChoice& duals)
+      : packing_(packing),
+        polytope_(polytope),
         problem_(polytope.problem),
         contacts_(contacts),
         options_(options),
+        choice_(duals),
         sums_(reactions ? reaction_sums(packing) : std::vector<ReactionSum>()) {
     prepare();
   }
@@ -37,15 +43,27 @@ class BarrierSearch {
   BarrierRanges run() {
     if (polytope_.status == PolytopeStatus::kEmpty) return without_states(Outcome::kNotRequested);
     if (!polytope_.central && !polytope_.unbounded) return without_states(Outcome::kFailed);
+    with_duals_ = contacts_with_duals(choice_, contacts_);
+    if (!with_duals_.empty() && !polytope_.central)
+      throw InputError(
+          "some contact forces can grow without limit here, and multipliers that prove values are kept of "
+          "packings where all are limited; --duals none leaves them out");
+    if (!with_duals_.empty()) duals_.emplace(packing_, polytope_, with_duals_);
     list_contacts();
     list_reactions();
     if (polytope_.unbounded) take_out_unbounded(*polytope_.unbounded);
-    const std::vector<ValueInterval> intervals =
-        polytope_.unbounded ? enclose_within_limits(*polytope_.unbounded)
-                            : enclose_least_values(problem_, *polytope_.central,
-                                                   *polytope_.central->equations, objectives_, options_);
-    for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], intervals[k]);
+    std::vector<bool> keeps_proof;
+    for (const Target& target : targets_) keeps_proof.push_back(has_duals(target));
+    std::vector<ValueInterval> intervals =
+        polytope_.unbounded
+            ? enclose_within_limits(*polytope_.unbounded)
+            : enclose_least_values(problem_, *polytope_.central, *polytope_.central->equations, objectives_,
+                                   options_, keeps_proof);
+    for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], std::move(intervals[k]));
     finish_reactions();
+    if (duals_) result_.duals = duals_->take();
+    if (choice_.kind == DualChoice::Kind::kSample && result_.duals.are_kept())
+      result_.duals.seed = static_cast<std::int64_t>(choice_.seed);
     return std::move(result_);
   }
 
@@ -99,7 +117,7 @@ class BarrierSearch {
   void add(const Target& target, barrier::Objective objective) {
     std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
     result_.extrema.determined += objective.empty() && !target.is_reaction ? 1 : 0;
-    if (objective.empty()) return store(target, {0, 0, 0, 0});
+    if (objective.empty()) return store(target, {0, 0, 0, 0, {}, {}});
     for (auto& [column, weight] : objective) weight *= target.sign;
     targets_.push_back(target);
     objectives_.push_back(std::move(objective));
@@ -186,7 +204,13 @@ class BarrierSearch {
     return intervals;
   }
 
-  void store(const Target& target, const ValueInterval& interval) {
+  bool has_duals(const Target& target) const {
+    return !target.is_reaction && std::binary_search(with_duals_.begin(), with_duals_.end(), target.row);
+  }
+
+  void store(const Target& target, ValueInterval interval) {
+    if (has_duals(target))
+      duals_->add(static_cast<int>(target.row), target.column, std::move(interval.x), interval.y);
     const bool is_zero = interval.lower == 0 && interval.upper == 0;
     auto [lower, upper] =
         is_zero ? barrier::ValueBounds{0, 0} : in_scene_units({interval.lower, interval.upper}, problem_);
@@ -224,10 +248,14 @@ class BarrierSearch {
     }
   }
 
+  const Packing& packing_;
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
   const std::vector<int>& contacts_;
   const IntervalOptions& options_;
+  const DualChoice& choice_;
+  std::vector<int> with_duals_;  ///< ascending
+  std::optional<DualCollector> duals_;
   std::vector<ReactionSum> sums_;
   std::vector<Target> targets_;
   std::vector<barrier::Objective> objectives_;
@@ -239,8 +267,8 @@ class BarrierSearch {
 
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
                                   const std::vector<int>& contacts, bool reactions,
-                                  const IntervalOptions& options) {
-  return BarrierSearch(packing, polytope, contacts, reactions, options).run();
+                                  const IntervalOptions& options, const DualChoice& duals) {
+  return BarrierSearch(packing, polytope, contacts, reactions, options, duals).run();
 }
 
 barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem) {

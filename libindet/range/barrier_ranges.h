@@ -5,6 +5,7 @@
 #include "libindet/barrier/verified_equations.h"
 #include "libindet/packing/packing.h"
 #include "libindet/polytope/force_polytope.h"
+#include "libindet/range/duals.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/interval_search.h"
@@ -18,6 +19,7 @@ struct BarrierRanges {
   Extrema extrema;        ///< claims kEnclosed, no vertex; or kUnbounded, with a ray
   Enclosures enclosures;  ///< their intervals
   Reactions reactions;    ///< complete
+  Duals duals;            ///< of the contacts that were chosen, if the polytope has a centre
 };
 
 /// `contacts`: ascending. A value that is 0 in all states, because no edge of its contact is open, needs no
@@ -26,7 +28,7 @@ struct BarrierRanges {
 /// (ForcePolytope::unbounded). Throws Interrupted.
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
                                   const std::vector<int>& contacts, bool reactions,
-                                  const IntervalOptions& options);
+                                  const IntervalOptions& options, const DualChoice& duals = {});
 
 /// Bounds in the unit of a problem, in the scene's: rounded outwards.
 barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem);

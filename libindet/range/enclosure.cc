@@ -10,6 +10,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/dense/lu.h"
+#include "libindet/range/central_enclosure.h"
 #include "libindet/range/equation_bounds.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/proof_bases.h"
@@ -360,6 +361,7 @@ class Encloser {
 
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
                           std::span<const SumAtOptimum> sums) {
+  if (polytope.central) return enclose_by_centre(polytope, extrema, sums);
   if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema).run(sums);
   Enclosures none;
   for (auto* table : {&none.lower, &none.upper, &none.sensitivity})

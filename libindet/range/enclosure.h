@@ -65,6 +65,8 @@ struct Enclosures {
 ///
 /// Objectives without an entry in `extrema.proofs` are determined: the same in every state. An empty F has
 /// nothing to enclose; `proven` then tells whether its emptiness is beyond doubt.
+/// Where the polytope has its analytic centre, it proves the same inequalities without P
+/// (central_enclosure.h).
 /// `sums`: further functionals, of several contacts at once, to be enclosed likewise.
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
                           std::span<const SumAtOptimum> sums = {});

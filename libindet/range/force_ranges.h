@@ -8,6 +8,7 @@
 #include "libindet/packing/packing.h"
 #include "libindet/range/certify.h"
 #include "libindet/range/contact_choice.h"
+#include "libindet/range/duals.h"
 #include "libindet/range/estimates.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/measures.h"
@@ -38,6 +39,7 @@ struct ForceRanges : ProblemSummary,
   /// Where asked for (AnalyzeOptions::solver_states); no field of files.
   std::optional<SolverStates> solver_states;
   Reactions reactions = {};  ///< Of walls and fixed disks; in files /reactions.
+  Duals duals = {};          ///< Of --method barrier, where asked for; in files /duals.
 };
 
 /// Certifies and measures what was found, and puts all of it together.

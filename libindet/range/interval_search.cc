@@ -19,12 +19,13 @@ class IntervalSearch {
  public:
   IntervalSearch(const EquilibriumProblem& problem, const CentralPolytope& central,
                  const barrier::VerifiedEquations& equations, std::span<const barrier::Objective> objectives,
-                 const IntervalOptions& options)
+                 const IntervalOptions& options, const std::vector<bool>& keeps_proof)
       : problem_(problem),
         central_(central),
         equations_(equations),
         objectives_(objectives),
         options_(options),
+        keeps_proof_(keeps_proof),
         least_(1 / problem.units.internal_in_weights()),
         intervals_(objectives.size()) {}
 
@@ -62,10 +63,14 @@ class IntervalSearch {
 
   void settle(const barrier::Iterate& iterate) {
     const barrier::Objective& objective = objectives_[iterate.objective];
-    const std::vector<double> x = equations_.repaired(iterate.x);
+    std::vector<double> x = equations_.repaired(iterate.x);
     const barrier::ValueBounds bounds = equations_.enclose(objective, x, iterate.y);
-    intervals_[iterate.objective].meet(
-        {bounds.lower, bounds.upper, sensitivity(x, iterate.y), iterate.iterations});
+    ValueInterval found{bounds.lower, bounds.upper, sensitivity(x, iterate.y), iterate.iterations, {}, {}};
+    if (!keeps_proof_.empty() && keeps_proof_[iterate.objective]) {
+      found.x = std::move(x);
+      found.y.assign(iterate.y.begin(), iterate.y.end());
+    }
+    intervals_[iterate.objective].meet(found);
     ++settled_;
   }
 
@@ -81,6 +86,7 @@ class IntervalSearch {
   const barrier::VerifiedEquations& equations_;
   std::span<const barrier::Objective> objectives_;
   const IntervalOptions& options_;
+  const std::vector<bool>& keeps_proof_;
   double least_;  ///< 1 mg in the unit of the problem
   std::vector<ValueInterval> intervals_;
   std::atomic<std::int64_t> settled_ = 0;
@@ -91,6 +97,8 @@ class IntervalSearch {
 void ValueInterval::meet(const ValueInterval& other) {
   const bool is_better = other.upper - other.lower < upper - lower;
   if (is_better || std::isnan(sensitivity)) sensitivity = other.sensitivity;
+  if (!other.y.empty() && (y.empty() || other.lower > lower)) y = other.y;
+  if (!other.x.empty() && (x.empty() || other.upper < upper)) x = other.x;
   lower = std::max(lower, other.lower);
   upper = std::min(upper, other.upper);
   iterations += other.iterations;
@@ -107,8 +115,9 @@ std::vector<ValueInterval> enclose_least_values(const EquilibriumProblem& proble
                                                 const CentralPolytope& central,
                                                 const barrier::VerifiedEquations& equations,
                                                 std::span<const barrier::Objective> objectives,
-                                                const IntervalOptions& options) {
-  return IntervalSearch(problem, central, equations, objectives, options).run();
+                                                const IntervalOptions& options,
+                                                const std::vector<bool>& keeps_proof) {
+  return IntervalSearch(problem, central, equations, objectives, options, keeps_proof).run();
 }
 
 }  // namespace indet

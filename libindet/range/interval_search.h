@@ -25,6 +25,7 @@ struct ValueInterval {
   double lower = -kInfinity, upper = kInfinity;  ///< rigorous; infinite where nothing is proven
   double sensitivity = kNaN;                     ///< sensitivity_to_normals, in the scene's unit of force
   int iterations = 0;
+  std::vector<double> x, y;  ///< that prove `upper` and `lower`, where asked for; x: one a column, y: a row
 
   /// What is known from both together.
   void meet(const ValueInterval& other);
@@ -35,11 +36,13 @@ bool is_narrow(const ValueInterval& interval, const EquilibriumProblem& problem,
 /// Encloses the least values of objectives on the edges' strengths, by the barrier method: every interval is
 /// proven (barrier::VerifiedEquations), whatever the iteration did. One that comes out wider than asked for
 /// is searched again with more care, twice at most. `central`: of the problem, perhaps within a limit.
-/// `equations`: of the same problem, and within a limit if that is.
+/// `equations`: of the same problem, and within a limit if that is. `keeps_proof`: one an objective, or none
+/// for no x and y.
 std::vector<ValueInterval> enclose_least_values(const EquilibriumProblem& problem,
                                                 const CentralPolytope& central,
                                                 const barrier::VerifiedEquations& equations,
                                                 std::span<const barrier::Objective> objectives,
-                                                const IntervalOptions& options);
+                                                const IntervalOptions& options,
+                                                const std::vector<bool>& keeps_proof = {});
 
 }  // namespace indet

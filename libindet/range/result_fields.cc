@@ -32,6 +32,12 @@ const char* to_string(Extent extent) {
       return "B";
     case Extent::kStateContacts:
       return "C";
+    case Extent::kDualContacts:
+      return "D";
+    case Extent::kDualValues:
+      return "4D";
+    case Extent::kSceneRows:
+      return "Y";
     case Extent::kReactions:
       return "P";
     case Extent::kEnds:
@@ -62,6 +68,8 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.method == Method::kPivotingPaper;
     case Presence::kInterval:
       return !std::isnan(ranges.gap);
+    case Presence::kDuals:
+      return ranges.duals.are_kept();
     case Presence::kReason:
       return !ranges.reason.empty();
     case Presence::kRandom:

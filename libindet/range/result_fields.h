@@ -9,7 +9,8 @@
 namespace indet {
 
 /// How many: N disks, W walls, M contacts, K extremal states, Q rays, d = dim F; P reactions, of which S
-/// states and U rays; B bounds of forces; C contacts whose states are kept.
+/// states and U rays; B bounds of forces; C contacts whose states are kept; D contacts whose duals are, of Y
+/// rows.
 enum class Extent : std::uint8_t {
   kOne,
   kDirections,      ///< 2: along normal and tangent (R and T), or x and y
@@ -27,9 +28,12 @@ enum class Extent : std::uint8_t {
   kReactionStates,  ///< S
   kReactionRays,    ///< U
   kBounds,          ///< B: of force_bounds()
-  kStateContacts    ///< C: contacts whose states are kept, where not all are
+  kStateContacts,   ///< C: contacts whose states are kept, where not all are
+  kDualContacts,    ///< D
+  kDualValues,      ///< 4D: R_min, R_max, T_min, T_max of the first contact, …
+  kSceneRows        ///< Y: 3N + 2W + 3 + B (duals.h)
 };
-/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "2", "S", "U", "B", "C".
+/// "1", "2", "3", "4", "N", "W", "M", "2M", "K", "Q", "d", "P", "2", "S", "U", "B", "C", "D", "4D", "Y".
 const char* to_string(Extent extent);
 
 /// When a field has something to say; else files leave it out.
@@ -42,6 +46,7 @@ enum class Presence : std::uint8_t {
   kEstimate,  ///< where δ is estimated
   kPaper,     ///< where the method is kPivotingPaper
   kInterval,  ///< where values are known to intervals of an asked-for width
+  kDuals,     ///< where duals are kept
   kReason,    ///< where the method was chosen by the program
   kRandom,    ///< where that goes to a neighbour by chance
   kWhereRows  ///< where the table has rows
@@ -324,6 +329,25 @@ void visit_estimates(Part& r, Visit& visit) {
 }
 
 template <class Part, class Visit>
+void visit_duals(Part& r, Visit& visit) {
+  const auto table = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                         Extent rows, Extent columns, auto& value) {
+    visit(Field{"/duals", name, unit, meaning, source, rows, columns, Presence::kWhereRows}, value);
+  };
+  table("contacts", "1", "contacts whose values these prove", FieldSource::kProblem, Extent::kDualContacts,
+        Extent::kOne, r.contacts);
+  visit(Field{"/duals", "seed", "1", "seed that drew these contacts, -1: all that were asked for",
+              FieldSource::kProblem, Extent::kOne, Extent::kOne, Presence::kDuals},
+        r.seed);
+  table("bounding", "1", "multipliers that limit every force", FieldSource::kProof, Extent::kSceneRows,
+        Extent::kOne, r.bounding);
+  table("multipliers", "1", "multipliers that bound R_min, R_max, T_min, T_max of these contacts in turn",
+        FieldSource::kProof, Extent::kDualValues, Extent::kSceneRows, r.multipliers);
+  table("points", "force", "states (R_1, T_1, ..., R_M, T_M) close to these values", FieldSource::kProof,
+        Extent::kDualValues, Extent::kForces, r.points);
+}
+
+template <class Part, class Visit>
 void visit_work(Part& r, Visit& visit) {
   const auto attribute = [&](const char* name, const char* meaning, Presence presence, auto& value) {
     visit(Field{"/provenance/work", name, "1", meaning, FieldSource::kWork, Extent::kOne, Extent::kOne,
@@ -383,6 +407,7 @@ void visit_fields(Ranges& ranges, Visit&& visit) {
   result_fields::visit_measures(ranges, visit);
   result_fields::visit_estimates(ranges, visit);
   result_fields::visit_reactions(ranges.reactions, visit);
+  result_fields::visit_duals(ranges.duals, visit);
   result_fields::visit_work(ranges, visit);
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "libindet/base/counted.h"
 #include "libindet/range/analyze.h"
 
 namespace indet {
@@ -80,12 +82,18 @@ void check_enclosed(const Packing& packing, const ForceRanges& ranges, const Pro
   if (ranges.enclosed == 0) return;
   const bool is_small = ranges.unknowns <= tolerance::kMostForPrograms;
   if (is_small) check_by_programs(packing, ranges, progress, compare);
+  const Eigen::Index with_duals = ranges.duals.contacts.size();
+  const std::string duals =
+      with_duals > 0 ? fmt::format(", but for those of {} with multipliers", counted(with_duals, "contact"))
+                     : "";
   compare.leave_unchecked(
       is_small ? fmt::format(
-                     "that intervals hold their values, but for those of {} contacts, which linear programs "
-                     "found again (--exact checks all)",
-                     some_enclosed(ranges).size())
-               : "that intervals hold their values (the packing is too large for linear programs)");
+                     "that intervals hold their values{}{} those of {} contacts, which linear programs found "
+                     "again (--exact checks all)",
+                     duals, with_duals > 0 ? " and" : ", but for", some_enclosed(ranges).size())
+               : fmt::format("that intervals hold their values{} (the packing is too large for linear "
+                             "programs; indet analyze … --duals stores multipliers)",
+                             duals));
 }
 
 }  // namespace indet

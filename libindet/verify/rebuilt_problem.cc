@@ -253,6 +253,40 @@ double RebuiltProblem::bounds_power(const Eigen::VectorXd& multipliers) const {
   return power;
 }
 
+RebuiltProblem::Sum RebuiltProblem::load_product(const Eigen::VectorXd& y) const {
+  Sum sum;
+  for (Eigen::Index i = 0; i < matrix_.rows(); ++i) sum.add(-wrench_[i] * y[i]);
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    sum.add(y[matrix_.rows() + static_cast<Eigen::Index>(k)] * bounds_[k].value / force_unit_);
+  return sum;
+}
+
+void RebuiltProblem::for_each_edge(
+    const Eigen::VectorXd& y,
+    const std::function<void(int contact, double R, double T, const Sum& along)>& visit) const {
+  std::vector<Sum> forces(static_cast<std::size_t>(matrix_.cols()));
+  for (Eigen::Index j = 0; j < matrix_.cols(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, j); it; ++it)
+      forces[static_cast<std::size_t>(j)].add(it.value() * y[it.row()]);
+  }
+  const auto multiplier = [&](std::size_t k) { return y[matrix_.rows() + static_cast<Eigen::Index>(k)]; };
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    forces[static_cast<std::size_t>(bounds_[k].component())].add(multiplier(k));
+  for (int c = 0; c < packing_.contact_count(); ++c) {
+    const Sum& normal = forces[static_cast<std::size_t>(2 * c)];
+    const Sum& tangential = forces[static_cast<std::size_t>(2 * c + 1)];
+    const double mu = packing_[ContactId(c)].mu;
+    const double size = normal.size + mu * tangential.size;
+    visit(c, 1, mu, {normal.value + mu * tangential.value, size});
+    if (mu > 0) visit(c, 1, -mu, {normal.value - mu * tangential.value, size});
+  }
+  for (std::size_t k = 0; k < bounds_.size(); ++k) {
+    if (bounds_[k].side == ForceBound::Side::kEqual) continue;
+    const double sign = bounds_[k].side == ForceBound::Side::kLower ? -1 : 1;
+    visit(bounds_[k].contact.value(), 0, 0, {sign * multiplier(k), std::abs(multiplier(k))});
+  }
+}
+
 double RebuiltProblem::smallest_contact_power(const Eigen::VectorXd& motion) const {
   return smallest_power(motion, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bounds_.size())));
 }

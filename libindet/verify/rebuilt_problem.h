@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -83,6 +85,24 @@ class RebuiltProblem {
   /// bound_multipliers): what bounds add to the power, and the smallest power with that of the slacks.
   double bounds_power(const Eigen::VectorXd& multipliers) const;
   double smallest_power(const Eigen::VectorXd& motion, const Eigen::VectorXd& multipliers) const;
+
+  /// Σ factor · (one number an unknown or an equation), with the sum of the sizes of its terms.
+  struct Sum {
+    double value = 0, size = 0;
+    void add(double term) {
+      value += term;
+      size += std::abs(term);
+    }
+  };
+  /// The multipliers y of the scene's rows (Duals): those of c, then those of bounds.
+  Eigen::Index scene_rows() const { return matrix_.rows() + static_cast<Eigen::Index>(bounds_.size()); }
+  /// b·y.
+  Sum load_product(const Eigen::VectorXd& y) const;
+  /// Visits (contact, R, T, Aᵀ y) for each edge (R, T) = (1, ±μ) of the contacts' cones, (1, 0) where μ = 0,
+  /// and then for the slack of each bound that is an inequality, with R = T = 0.
+  void for_each_edge(
+      const Eigen::VectorXd& y,
+      const std::function<void(int contact, double R, double T, const Sum& along)>& visit) const;
 
  private:
   void add_stress(std::vector<Eigen::Triplet<double>>& entries);

@@ -80,7 +80,13 @@ class Barrier(program.ProgramTest):
         for options, text in [(["--method", "lp", "--gap", "1e-3"], "--gap has no effect"),
                               (["--method", "barrier", "--extremal-states", "solver"], "inside of optimal faces"),
                               (["--method", "barrier", "--accuracy", "exact"], "starts from the vertices"),
-                              (["--method", "barrier", "--gap", "0"], "--gap")]:
+                              (["--method", "barrier", "--gap", "0"], "--gap"),
+                              (["--method", "lp", "--duals", "all"], "--duals all has no effect"),
+                              (["--duals", "all", "--states-of", "3"], "do not go together"),
+                              (["--accuracy", "exact", "--duals", "all"], "starts from the vertices"),
+                              (["--accuracy", "estimate", "--duals", "all"], "estimates have no multipliers"),
+                              (["--duals", "sample:0"], "expected none, all, or sample:K"),
+                              (["--duals", "3"], "expected none, all, or sample:K")]:
             with self.subTest(options):
                 result = self.run_indet("analyze", "p.h5", "-o", "x.h5", *options, status=2)
                 self.assertIn(text, result.stderr)
@@ -118,6 +124,61 @@ class Barrier(program.ProgramTest):
         self.assertEqual(list(np.flatnonzero(kept)), [3, 5])
         np.testing.assert_array_equal(np.isfinite(file["ranges/d_R"][()]), kept)
         self.assertIn("0 contradictions", self.run_indet("verify", "b.h5").stdout)
+
+    def test_multipliers_prove_values_by_themselves(self):
+        text = self.analyze("d.h5", "--duals", "all")
+        self.assertIn("found by the barrier method", text)
+        file = self.open("d.h5")
+        disks, walls = len(file["particles/disks/id"]), len(file["walls/id"])
+        n, a, b, mu = (file["contacts"][name][()] for name in ["normal", "body_a", "body_b", "mu"])
+        # One column an edge of strength 1: R = 1, T = ±mu.
+        force = np.stack([np.ones(2 * len(mu)), np.repeat(mu, 2) * np.tile([1, -1], len(mu))])
+        columns = np.zeros((3 * disks + 2 * walls + 3, 2 * len(mu)))
+        for k in range(2 * len(mu)):
+            R, T = force[:, k]
+            nx, ny = n[k // 2]
+            push = np.array([R * nx + T * ny, R * ny - T * nx])
+            for body, sign in [(a[k // 2], 1), (b[k // 2], -1)]:
+                if body >= 0:
+                    columns[3 * body:3 * body + 3, k] = [*(sign * push), T]
+        load = np.zeros(len(columns))
+        weight = file["particles/disks/mass"][()][:, None] * file["parameters"].attrs["gravity"]
+        load[:3 * disks].reshape(-1, 3)[:, :2] = -weight
+        bounding = file["duals/bounding"][()]
+        strength = load @ bounding / (columns.T @ bounding)
+        self.assertTrue((columns.T @ bounding > 0).all())
+        mg = file["equilibrium"].attrs["force_unit"]
+        multipliers, points = file["duals/multipliers"][()], file["duals/points"][()]
+        for contact in file["duals/contacts"][()]:
+            for column in range(4):
+                y, sign = multipliers[4 * contact + column], 1 - 2 * (column % 2)
+                c = np.zeros(2 * len(mu))
+                c[2 * contact:2 * contact + 2] = force[column // 2, 2 * contact:2 * contact + 2]
+                rest = np.minimum(0, sign * (c - columns.T @ y)) @ strength
+                proven = sign * load @ y + rest
+                lower, upper = (sign * file["ranges"][name][contact, column] for name in ["lower", "upper"])
+                stated = min(lower, upper)
+                self.assertLess(stated, proven + 1e-11 * mg)
+                self.assertLess(proven, stated + 1e-6 * max(mg, abs(stated)))
+                value = sign * points[4 * contact + column, 2 * contact + column // 2]
+                self.assertLess(stated - 1e-11 * mg, value)
+                self.assertLess(value, max(lower, upper) + 1e-11 * mg)
+        self.assertIn(f"{4 * len(mu)} intervals proven by stored multipliers and states",
+                      self.run_indet("verify", "d.h5").stdout)
+
+    def test_multipliers_of_some_contacts(self):
+        chosen = set()
+        for seed, threads in [("3", "1"), ("3", "2"), ("4", "1")]:
+            self.analyze("d.h5", "--duals", "sample:3", "--seed", seed, "--threads", threads, "--gap", "1e-3")
+            file = self.open("d.h5")
+            self.assertEqual(file["duals"].attrs["seed"], int(seed))
+            self.assertEqual(file["duals/multipliers"].shape[0], 12)
+            chosen.add((seed, tuple(file["duals/contacts"]), file.attrs["content_sha256"]))
+        self.assertEqual(len(chosen), 2)
+        self.assertIn("multipliers and states stored that prove the values of 3 contacts",
+                      self.run_indet("inspect", "d.h5").stdout)
+        self.analyze("b.h5", "--method", "barrier")
+        self.assertNotIn("duals", self.open("b.h5"))
 
     def test_a_sample_of_contacts(self):
         self.analyze("b.h5", "--method", "barrier", "--contacts", "3,5-7")

@@ -76,7 +76,7 @@ class Configuration(program.ProgramTest):
         self.run_indet("--threads", "1", "analyze", "p.h5", "--formulation", "edge", "-o", "r.h5")
         table = tomllib.loads(self.config_of("r.h5"))
         self.assertEqual(table["threads"], 1)
-        self.assertEqual(table["analyze"], {"method": "auto", "accuracy": "standard", "contacts": "all", "reactions": "auto", "seed": 1,
+        self.assertEqual(table["analyze"], {"method": "auto", "accuracy": "standard", "contacts": "all", "duals": "none", "reactions": "auto", "seed": 1,
                                             "formulation": "edge", "extremal-states": "auto", "states-of": "all",
                                             "output": "r.h5"})
         self.check_reads_back("r.h5", "provenance", "analyze", "p.h5")

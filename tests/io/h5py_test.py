@@ -163,7 +163,8 @@ class Samples(unittest.TestCase):
         self.assertEqual(done.stdout, "True\nTrue\n")
 
     def test_files_have_the_fields_of_the_list(self):
-        sizes = {"2": 2, "3": 3, "4": 4, "N": 3, "W": 2, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3, "P": 4, "S": 3, "U": 1, "B": 6, "C": 2}
+        sizes = {"2": 2, "3": 3, "4": 4, "N": 3, "W": 2, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3, "P": 4, "S": 3, "U": 1, "B": 6, "C": 2, "D": 2, "4D": 8,
+                 "Y": 16}
         types = {"f8": "<f8", "i4": "<i4", "u1": "u1", "enum": "u1"}
         with h5py.File(f"{FOLDER}/rare.h5", "r") as file:
             for group, name, kind, shape, unit, meaning in FIELDS:
@@ -177,7 +178,7 @@ class Samples(unittest.TestCase):
                     self.assertEqual(dataset.shape, tuple(sizes[size] for size in shape.split(",")))
                     self.assertEqual((dataset.attrs["unit"], dataset.attrs["long_name"]), (unit, meaning))
             stored = set()
-            for group in ["equilibrium", "ranges", "extremal", "reactions", "provenance/work"]:
+            for group in ["equilibrium", "ranges", "extremal", "reactions", "duals", "provenance/work"]:
                 stored |= {(f"/{group}", name) for name in [*file[group].attrs, *file[group]]}
         # Of no result: the digest, and the level of confidence that all samples share.
         self.assertEqual(stored - {("/ranges", "sha256"), ("/ranges", "confidence")},

@@ -244,6 +244,27 @@ TEST(RangesFile, ReactionsOfNoBodyAreRefused) {
   refuses("/reactions: some of its tables are missing", [](Reactions& r) { r.ray.resize(0, 2); });
 }
 
+TEST(RangesFile, DualsThatAreNotWholeAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto refuses = [&](const char* reason, auto change) {
+    ForceRanges ranges = test::sample_ranges();
+    ranges.duals = test::sample_duals();
+    change(ranges.duals);
+    write_ranges(folder / "r.h5", test::sample_packing(), ranges, {});
+    EXPECT_THAT([&] { read_ranges(folder / "r.h5"); }, ThrowsMessage<InputError>(HasSubstr(reason)));
+  };
+  refuses("/duals/contacts: is no ascending list", [](Duals& d) { d.contacts[1] = 1; });
+  refuses("/duals/contacts: is no ascending list", [](Duals& d) { d.contacts[1] = 5; });
+  refuses("/duals: has not four values", [](Duals& d) {
+    d.points.conservativeResize(7, 10);
+    d.multipliers.conservativeResize(7, 16);
+  });
+  refuses("/duals/bounding: has not 16 entries", [](Duals& d) {
+    d.bounding.conservativeResize(15);
+    d.multipliers.conservativeResize(8, 15);
+  });
+}
+
 TEST(RangesFile, AFileWithoutRangesSaysSo) {
   const test::TemporaryFolder folder;
   write_packing(folder / "p.h5", test::sample_packing(), {});

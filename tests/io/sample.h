@@ -49,6 +49,18 @@ inline Packing sample_packing() {
 }
 
 /// Reactions of the packing above, of numbers that mean nothing: P = 4 sums, S = 3 states, U = 1 ray.
+/// Of 2 of the 5 contacts of 3 disks and 2 walls.
+inline Duals sample_duals() {
+  Duals duals;
+  duals.seed = 5;
+  duals.contacts.resize(2);
+  duals.contacts << 1, 4;
+  duals.multipliers.setConstant(8, 16, 0.5);
+  duals.points.setConstant(8, 10, 1.5);
+  duals.bounding.setConstant(16, 2);
+  return duals;
+}
+
 inline Reactions sample_reactions() {
   Reactions r;
   r.body.resize(4);

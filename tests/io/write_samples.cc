@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
     rare.wall_motion.setConstant(2, 2, 0.5);
     rare.cell_motion.setConstant(2, 2, 0.25);
     rare.bound_multipliers.setConstant(6, 0.125);
+    rare.duals = indet::test::sample_duals();
     indet::write_ranges(folder / "rare.h5", indet::test::sample_packing(), rare, provenance);
 
     // Above the size from which data are compressed.

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/polytope/central_polytope.h"
 #include "libindet/range/analyze.h"
+#include "libindet/range/enclosure.h"
 #include "tests/support/compare.h"
 #include "tests/support/zoo.h"
 
@@ -233,6 +237,37 @@ TEST(BarrierRanges, KeepTheStatesThatAreAskedFor) {
   options.states.kind = StateChoice::Kind::kSolver;
   options.states.within_limit = false;
   EXPECT_THROW(analyze(packing, options), InputError);
+}
+
+TEST(Enclosures, ByTheCentreAgreeWithThoseByARightInverse) {
+  int found = 0;
+  std::vector<Packing> packings = small_packings();
+  packings.push_back(bounded_pile());
+  for (const Packing& packing : packings) {
+    SCOPED_TRACE(found);
+    ForcePolytope polytope = find_force_polytope(packing);
+    if (polytope.status != PolytopeStatus::kBounded) continue;
+    std::vector<int> contacts(packing.contacts.size());
+    std::iota(contacts.begin(), contacts.end(), 0);
+    const Extrema extrema = find_extrema(packing, polytope, contacts, {}, {});
+    const Enclosures dense = enclose_values(polytope, extrema);
+    ASSERT_TRUE(add_centre(polytope));
+    const Enclosures central = enclose_values(polytope, extrema);
+    ++found;
+    EXPECT_EQ(central.proven, dense.proven);
+    for (Eigen::Index k = 0; k < extrema.value.size(); ++k) {
+      const double value = extrema.value.data()[k];
+      const double lower = central.lower.data()[k], upper = central.upper.data()[k];
+      EXPECT_LE(lower, value);
+      EXPECT_GE(upper, value);
+      EXPECT_LE(upper - lower, 1e-9 * packing.force_unit());
+      EXPECT_LE(lower, dense.upper.data()[k]);
+      EXPECT_GE(upper, dense.lower.data()[k]);
+      const double sensitivity = dense.sensitivity.data()[k];
+      EXPECT_NEAR(central.sensitivity.data()[k], sensitivity, 1e-10 * std::max(1.0, sensitivity));
+    }
+  }
+  EXPECT_GE(found, 5);
 }
 
 TEST(BarrierRanges, StopWhenAsked) {

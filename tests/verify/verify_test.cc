@@ -153,6 +153,75 @@ TEST(VerifyRanges, ChecksTheMotionOfCells) {
   }
 }
 
+ForceRanges with_duals(const Packing& packing, double gap = 1e-6) {
+  AnalyzeOptions options;
+  options.method = Method::kBarrier;
+  options.gap = gap;
+  options.states.kind = StateChoice::Kind::kNone;
+  options.duals.kind = DualChoice::Kind::kAll;
+  return analyze(packing, options);
+}
+
+/// Friction and none, closed edges, loaded walls, imposed stress, bounds of forces.
+std::vector<Packing> bounded_packings() {
+  Packing bounds = zoo::wedge(0.4, 0.3);
+  bounds.contacts[0].R_lo = 0.5;
+  bounds.contacts[0].R_hi = 0.55;
+  bounds.contacts[1].T_hi = 0.1;
+  return {zoo::wedge(0.4, 0.3),
+          zoo::disk_on_floor(0.3),
+          zoo::corner(0.4, 1),
+          zoo::corner(0.4, 0.9),
+          zoo::wedge_and_corner(0.4, 0.3),
+          zoo::column(9, 0.4, 0.3),
+          zoo::disk_on_two_fixed(0.5, 0.3, 1, 2),
+          zoo::biaxial_box(3, 2, 1, 1.2, 0.2),
+          zoo::rack(2),
+          zoo::periodic_lattice(3, 3, 0.2, 0.02),
+          bounds};
+}
+
+TEST(VerifyRanges, ProvesValuesByStoredMultipliers) {
+  for (const double gap : {1e-2, 1e-7}) {
+    for (const Packing& packing : bounded_packings()) {
+      SCOPED_TRACE(packing.origin.protocol);
+      const ForceRanges ranges = with_duals(packing, gap);
+      ASSERT_EQ(ranges.method, Method::kBarrier);
+      ASSERT_EQ(ranges.duals.contacts.size(), packing.contact_count());
+      const Verification found = verify_ranges(packing, ranges);
+      EXPECT_TRUE(found.passed()) << first_message(found);
+      EXPECT_THAT(found.remarks,
+                  Contains(HasSubstr(std::to_string(4 * packing.contact_count()) + " intervals proven")));
+    }
+  }
+}
+
+TEST(VerifyRanges, TakesNothingThatMultipliersDoNotProve) {
+  const Packing packing = zoo::column(9, 0.4, 0.3);
+  const ForceRanges good = with_duals(packing);
+  const auto refuses = [&](const char* text, auto change) {
+    ForceRanges wrong = good;
+    change(wrong);
+    const Verification found = verify_ranges(packing, wrong);
+    EXPECT_FALSE(found.passed()) << text;
+    EXPECT_THAT(found.messages, Contains(HasSubstr(text)));
+  };
+  const double slip = 1e-3 * good.force_unit;
+  refuses("contact 2 R_min: between", [&](ForceRanges& r) { r.lower(2, kMinR) += slip; });
+  refuses("contact 2 R_max: between", [&](ForceRanges& r) { r.upper(2, kMaxR) -= slip; });
+  refuses("contact 2 T_max: between",
+          [](ForceRanges& r) { r.duals.multipliers.row(4 * 2 + kMaxT) *= 1 + 1e-3; });
+  refuses("contact 2 T_min: the state that proves it violates",
+          [](ForceRanges& r) { r.duals.points(4 * 2 + kMinT, 3) *= 1 + 1e-6; });
+  refuses("contact 2 R_min: between", [](ForceRanges& r) {  // a state, but of another value
+    r.duals.points.row(4 * 2 + kMinR) = r.duals.points.row(4 * 2 + kMaxR);
+  });
+  refuses("contact 2 R_min: its proof has numbers that are none",
+          [](ForceRanges& r) { r.duals.multipliers(4 * 2 + kMinR, 1) = ForceRanges::kNaN; });
+  refuses("/duals/bounding: it does not limit", [](ForceRanges& r) { r.duals.bounding *= -1; });
+  refuses("/duals/bounding: not", [](ForceRanges& r) { r.duals.bounding.conservativeResize(5); });
+}
+
 TEST(VerifyRanges, ChecksReactions) {
   const Packing packing = zoo::disk_on_two_fixed(0.5, 0.3, 1, 2);
   const ForceRanges good = analyze(packing);
