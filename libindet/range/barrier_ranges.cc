@@ -10,6 +10,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/base/rounding_bounds.h"
+#include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/unbounded_polytope.h"
 #include "libindet/range/dual_collector.h"
 #include "libindet/range/functional.h"
@@ -23,7 +24,8 @@ struct Target {
   bool is_reaction = false;
   Eigen::Index row = 0;
   int column = 0;
-  double sign = 1;  ///< −1: a maximum, of which the objective is the least value with the other sign
+  double sign = 1;      ///< −1: a maximum, of which the objective is the least value with the other sign
+  double rounding = 0;  ///< what roundings of the objective's coefficients change at most
 };
 
 class BarrierSearch {
@@ -139,8 +141,10 @@ class BarrierSearch {
       const ReactionSum& sum = sums_[k];
       const auto row = static_cast<Eigen::Index>(k);
       describe(k);
-      const barrier::Objective objective = sum_of_forces(problem_, sum.coefficients).on_edges;
-      for (const int end : {0, 1}) add({true, row, end, end == 0 ? 1.0 : -1.0}, objective);
+      const Functional f = sum_of_forces(problem_, sum.coefficients);
+      const double rounding =
+          polytope_.central ? f.rounding(polytope_.central->equations->strength_bounds()) : 0;
+      for (const int end : {0, 1}) add({true, row, end, end == 0 ? 1.0 : -1.0, rounding}, f.on_edges);
     }
   }
 
@@ -211,6 +215,8 @@ class BarrierSearch {
   void store(const Target& target, ValueInterval interval) {
     if (has_duals(target))
       duals_->add(static_cast<int>(target.row), target.column, std::move(interval.x), interval.y);
+    interval.lower -= target.rounding;
+    interval.upper += target.rounding;
     const bool is_zero = interval.lower == 0 && interval.upper == 0;
     auto [lower, upper] =
         is_zero ? barrier::ValueBounds{0, 0} : in_scene_units({interval.lower, interval.upper}, problem_);

@@ -168,7 +168,8 @@ class CentralEncloser {
     const barrier::ValueBounds least = sum.bases.empty()
                                            ? central_.equations->enclose_everywhere(f.on_edges, y)
                                            : central_.equations->enclose(f.on_edges, repaired(sum.state), y);
-    const auto [lower, upper] = in_scene_units(least, problem_);
+    const double rounding = f.rounding(central_.equations->strength_bounds());
+    const auto [lower, upper] = in_scene_units({least.lower - rounding, least.upper + rounding}, problem_);
     return {-upper, -lower};
   }
 

@@ -1,11 +1,21 @@
 #include "libindet/range/functional.h"
 
+#include "libindet/base/rounding_bounds.h"
+
 namespace indet {
 
 double Functional::at(const Eigen::VectorXd& u) const {
   double value = 0;
   for (const auto& [unknown, coefficient] : on_unknowns) value += coefficient * u[unknown];
   return value;
+}
+
+double Functional::rounding(const std::vector<double>& strength) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < on_edges.size(); ++k)
+    sum += edge_size(k) * strength[static_cast<std::size_t>(on_edges[k].first)];
+  // Each is a sum of two products with rounded factors.
+  return sum == 0 ? 0 : 5 * kRoundoff * sum + kTiny;
 }
 
 Functional Functional::opposite() const {

@@ -23,6 +23,8 @@ struct Functional {
     return unknown_sizes.empty() ? std::abs(on_unknowns[k].second) : unknown_sizes[k];
   }
   double at(const Eigen::VectorXd& u) const;
+  /// Bound of what the roundings of the coefficients on edges change where 0 ≤ x ≤ `strength`.
+  double rounding(const std::vector<double>& strength) const;
   Functional opposite() const;
 };
 
