@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
+
 #include "libindet/base/counted.h"
 #include "libindet/range/state_choice.h"
 
@@ -19,6 +22,17 @@ std::string describe_contacts(const KeptStates& kept) {
                                            : fmt::format(" of the {} of largest δR + δT", contacts);
 }
 
+/// Values of contacts whose states are kept that have none.
+std::int64_t values_without_state(const ForceRanges& ranges) {
+  std::int64_t count = 0;
+  for (Eigen::Index i = 0; i < ranges.value.rows(); ++i) {
+    if (!ranges.keeps(static_cast<int>(i))) continue;
+    for (int column = 0; column < 4; ++column)
+      count += std::isfinite(ranges.value(i, column)) && ranges.vertex(i, column) < 0 ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::string describe_kept_states(const ForceRanges& ranges) {
@@ -33,8 +47,10 @@ std::string describe_kept_states(const ForceRanges& ranges) {
   const char* const which = ranges.state_kind == Kind::kCanonical ? ", the canonical ones"
                             : ranges.state_kind == Kind::kSolver  ? ", those that the solver found"
                                                                   : "";
-  return fmt::format("{} kept{}{}", counted(ranges.states.rows(), "extremal state"), which,
-                     describe_contacts(ranges));
+  const std::int64_t without = values_without_state(ranges);
+  return fmt::format(
+      "{} kept{}{}{}", counted(ranges.states.rows(), "extremal state"), which, describe_contacts(ranges),
+      without > 0 ? fmt::format("; {} without one, as none was proven", counted(without, "value")) : "");
 }
 
 std::string describe_missing_states(const KeptStates& kept) {

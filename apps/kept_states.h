@@ -6,7 +6,8 @@
 
 namespace indet::app {
 
-/// "865 extremal states kept, the canonical ones"; "no extremal states kept; …", with how to get them.
+/// "865 extremal states kept, the canonical ones", and how many values have none; "no extremal states kept;
+/// …", with how to get them.
 std::string describe_kept_states(const ForceRanges& ranges);
 
 /// Why a file lacks a state, as the end of a sentence, and how to get it: "this file keeps no extremal

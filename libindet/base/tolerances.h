@@ -329,6 +329,11 @@ inline constexpr double kTightHalfPlane = 1e-9;
 /// Distance of an objective's gradient (dimensionless) from the cone of the outward normals of the tight
 /// half-planes, up to which the state is optimal.
 inline constexpr double kOptimalityGap = 1e-9;
+/// The same in packings of more than kMostForPrograms unknowns, where it is found by sparse least squares:
+/// these leave up to 1e-8 at 1600 disks.
+inline constexpr double kSparseOptimalityGap = 1e-7;
+/// What those add to the diagonal of their normal equations, so that dependent rows do no harm.
+inline constexpr double kOptimalityRidge = 1e-12;
 
 /// A stored motion may be resisted by a contact with this power, and a stored ray (largest entry 1) miss
 /// balance and contact conditions by this.
@@ -460,7 +465,7 @@ inline constexpr double kAbsorbedDualResidual = 1e-3;
 inline constexpr double kVertexRounding = 1e-13;
 /// An entry of a direction along an edge of the polytope that is smaller than this stays as it is.
 inline constexpr double kVertexPivot = 1e-7;
-/// Steps from the basis that the interior point method proposes to the best one; most need none.
+/// Steps from the basis that the interior point method proposes to the best one at most.
 inline constexpr int kMostVertexSteps = 200;
 
 /// An objective whose gap has not fallen below this share of the smallest before, in so many iterations, is

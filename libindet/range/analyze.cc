@@ -106,8 +106,7 @@ ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& option
   if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded && !has_centre)
     choice.reason =
         "forces are unbounded, the bodies that they press together can still move, for which this method has "
-        "no "
-        "values, and the packing is too large for lp";
+        "no values, and the packing is too large for lp";
   if (sparse && (is_large || has_centre || sparse->status == PolytopeStatus::kEmpty))
     return std::move(*sparse);
   if (!sparse && is_large)
@@ -168,8 +167,7 @@ void require_centre(const ForcePolytope& polytope) {
   if (polytope.doubtful)
     throw InputError(
         "rounding decides whether contact forces balance here, or stay bounded, and no range can be "
-        "estimated; "
-        "--accuracy standard finds what there is");
+        "estimated; --accuracy standard finds what there is");
   if (polytope.central) return;
   const bool is_unbounded = polytope.status == PolytopeStatus::kUnbounded;
   throw InputError(std::string(is_unbounded ? "some contact forces can grow without limit here"
@@ -190,8 +188,22 @@ StateChoice states_by_barrier(StateChoice kept, bool is_asked_for) {
   return kept;
 }
 
-Table4<double> middles(const Enclosures& enclosures) {
-  return enclosures.lower + (enclosures.upper - enclosures.lower) / 2;
+/// The states that are to be kept, where the method has any.
+void add_states(const Packing& packing, const ForcePolytope& polytope, const StateChoice& kept,
+                const std::vector<int>& contacts, const AnalyzeOptions& options, BarrierRanges& found) {
+  if (kept.kind == StateChoice::Kind::kNone || polytope.status == PolytopeStatus::kEmpty) return;
+  if (!polytope.central) {
+    found.extrema.reason =
+        "forces are unbounded, for which this method has no extremal states, and the packing is too large "
+        "for "
+        "lp";
+    return;
+  }
+  const Enclosures& enclosures = found.enclosures;
+  const Table4<double> middles = enclosures.lower + (enclosures.upper - enclosures.lower) / 2;
+  add_canonical_states(packing, polytope, kept,
+                       kept.keeps_all() ? contacts : contacts_with_states(kept, middles),
+                       interval_options(options, "extremal states"), found);
 }
 
 }  // namespace
@@ -246,13 +258,8 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     stopwatch.mark("ranges");
     if (!is_left_to_programs(packing, polytope, found)) {
       found.extrema.reason = std::move(choice.reason);
-      if (kept.kind == StateChoice::Kind::kCanonical && polytope.central) {
-        add_canonical_states(
-            packing, polytope, kept,
-            kept.keeps_all() ? contacts : contacts_with_states(kept, middles(found.enclosures)),
-            interval_options(options, "extremal states"), found);
-        stopwatch.mark("states");
-      }
+      add_states(packing, polytope, kept, contacts, options, found);
+      stopwatch.mark("states");
       ForceRanges ranges =
           assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
       ranges.reactions = std::move(found.reactions);

@@ -34,7 +34,9 @@ struct AnalyzeOptions {
   bool reactions = true;  ///< of walls and fixed disks: find their ranges, too
   /// Estimates in place of ranges, by kBarrier, of all contacts: `contacts` and `states` do not matter.
   std::optional<EstimateOptions> estimate;
-  DualChoice duals;            ///< of kBarrier: which proofs of values the result keeps
+  /// Of kBarrier: which proofs of values the result keeps. Precondition: no states are kept, for these prove
+  /// narrower bounds.
+  DualChoice duals;
   StateChoice states;          ///< which extremal states the result keeps
   bool solver_states = false;  ///< where it keeps all canonical ones: also tell where the solver landed
                                ///< (ForceRanges::solver_states)

@@ -217,14 +217,7 @@ class BarrierSearch {
       duals_->add(static_cast<int>(target.row), target.column, std::move(interval.x), interval.y);
     interval.lower -= target.rounding;
     interval.upper += target.rounding;
-    const bool is_zero = interval.lower == 0 && interval.upper == 0;
-    auto [lower, upper] =
-        is_zero ? barrier::ValueBounds{0, 0} : in_scene_units({interval.lower, interval.upper}, problem_);
-    if (target.sign < 0) {
-      std::swap(lower, upper);
-      lower = -lower;
-      upper = -upper;
-    }
+    const auto [lower, upper] = value_bounds({interval.lower, interval.upper}, target.sign, problem_);
     if (target.is_reaction) {
       result_.reactions.lower(target.row, target.column) = lower;
       result_.reactions.upper(target.row, target.column) = upper;
@@ -281,6 +274,13 @@ barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const Eq
   const double unit = problem.units.internal_in_scene();
   const auto room = [&](double bound) { return unit * (4 * kRoundoff * std::abs(bound) + kTiny); };
   return {bounds.lower * unit - room(bounds.lower), bounds.upper * unit + room(bounds.upper)};
+}
+
+barrier::ValueBounds value_bounds(const barrier::ValueBounds& least, double sign,
+                                  const EquilibriumProblem& problem) {
+  if (least.lower == 0 && least.upper == 0) return {0, 0};
+  const barrier::ValueBounds bounds = in_scene_units(least, problem);
+  return sign < 0 ? barrier::ValueBounds{-bounds.upper, -bounds.lower} : bounds;
 }
 
 EnclosedValue enclosed_value(double lower, double upper, double gap, double weight) {

@@ -33,6 +33,10 @@ BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& p
 /// Bounds in the unit of a problem, in the scene's: rounded outwards.
 barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem);
 
+/// Of a value in the scene's units, from those of the least value of the objective sign · value.
+barrier::ValueBounds value_bounds(const barrier::ValueBounds& least, double sign,
+                                  const EquilibriumProblem& problem);
+
 /// What an interval is as a result: its middle is the value; it is enclosed if it is no wider than asked for.
 struct EnclosedValue {
   double value = 0;

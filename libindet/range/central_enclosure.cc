@@ -71,13 +71,7 @@ class CentralEncloser {
   void add_reduced_costs(const Functional& f, std::size_t number, const Basis& basis,
                          const Eigen::PartialPivLU<Eigen::MatrixXd>& active, Eigen::VectorXd& costs) const {
     const PolytopeBlock& block = polytope_.blocks[number];
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
-    for (const auto& [edge, coefficient] : f.on_edges) {
-      const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
-      if (local != block.edges.end() && *local == edge)
-        gradient += coefficient * block.view.slope.row(local - block.edges.begin()).transpose();
-    }
-    const Eigen::VectorXd reduced = active.transpose().solve(gradient);
+    const Eigen::VectorXd reduced = active.transpose().solve(gradient_along(block, f));
     for (Eigen::Index k = 0; k < reduced.size(); ++k)
       costs[block.edges[static_cast<std::size_t>(basis[static_cast<std::size_t>(k)])]] +=
           std::max(0.0, reduced[k]);
@@ -143,13 +137,7 @@ class CentralEncloser {
   }
 
   void store(Eigen::Index i, int column, const barrier::ValueBounds& least, double sensitivity) {
-    auto [lower, upper] =
-        least.lower == 0 && least.upper == 0 ? barrier::ValueBounds{0, 0} : in_scene_units(least, problem_);
-    if (sign_of(column) < 0) {
-      std::swap(lower, upper);
-      lower = -lower;
-      upper = -upper;
-    }
+    const auto [lower, upper] = value_bounds(least, sign_of(column), problem_);
     const double stored = extrema_.value(i, column);
     enclosures_.lower(i, column) = std::min(stored, lower);
     enclosures_.upper(i, column) = std::max(stored, upper);

@@ -25,12 +25,11 @@ namespace {
 /// rounding propose more bases that are not feasible.
 struct Round {
   double delta = 0;      ///< weight of ΣR beside the value
-  double gap = 0;        ///< of the interior point method
   double shift = 0;      ///< of b: as if strengths of the centre grew by up to this share
   double least_aim = 0;  ///< LockStepOptions::least_aim
 };
-constexpr Round kRounds[] = {
-    {1e-8, 1e-12, 1e-4, 0.01}, {1e-7, 1e-12, 1e-3, 0.1}, {1e-5, 1e-12, 1e-3, 0.1}, {1e-4, 1e-12, 1e-2, 0.1}};
+constexpr Round kRounds[] = {{1e-8, 1e-4, 0.01}, {1e-7, 1e-3, 0.1}, {1e-5, 1e-3, 0.1}, {1e-4, 1e-2, 0.1}};
+constexpr double kGap = 1e-12;      ///< of the interior point method
 constexpr double kTieBreak = 1e-2;  ///< weight of the generic functional beside ΣR
 
 /// A value and the objective whose least value it is, up to its sign.
@@ -66,6 +65,7 @@ class StateSearch {
       for (std::size_t t = 0; t < targets_.size(); ++t) {
         if (!vertices_[t]) wanted.push_back(t);
       }
+      if (wanted.empty()) break;
       settled_ = static_cast<std::int64_t>(targets_.size() - wanted.size());
       search(round, wanted);
     }
@@ -90,7 +90,7 @@ class StateSearch {
   void search(const Round& round, const std::vector<std::size_t>& wanted) {
     const barrier::BlockStructure shifted = shifted_structure(round.shift);
     barrier::LockStepOptions lock_step;
-    lock_step.gap = round.gap;
+    lock_step.gap = kGap;
     lock_step.least = 1 / problem_.units.internal_in_weights();
     lock_step.least_aim = round.least_aim;
     run_in_lock_step(shifted, central_.centre, wanted,
@@ -193,13 +193,8 @@ class StateSearch {
     found_.extrema.dual_residual(target.contact, target.column) = vertex.dual_residual;
     found_.extrema.unique(target.contact, target.column) = vertex.is_unique ? 1 : 0;
     if (target.value.empty()) return;
-    const barrier::ValueBounds least = central_.equations->enclose(target.value, vertex.x, vertex.y);
-    auto [lower, upper] = in_scene_units(least, problem_);
-    if (target.sign < 0) {
-      std::swap(lower, upper);
-      lower = -lower;
-      upper = -upper;
-    }
+    const auto [lower, upper] =
+        value_bounds(central_.equations->enclose(target.value, vertex.x, vertex.y), target.sign, problem_);
     Enclosures& enclosures = found_.enclosures;
     double& stored_lower = enclosures.lower(target.contact, target.column);
     double& stored_upper = enclosures.upper(target.contact, target.column);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "libindet/packing/packing.h"
 #include "libindet/range/outcome.h"
 
 namespace indet {
@@ -49,5 +51,8 @@ struct Duals {
   /// The row of a value of the d-th contact.
   static Eigen::Index row_of(Eigen::Index d, int column) { return 4 * d + column; }
 };
+
+/// Bytes that the duals of so many contacts take.
+std::size_t dual_bytes(const Packing& packing, std::size_t contacts);
 
 }  // namespace indet

@@ -159,14 +159,7 @@ class Encloser {
   /// λ of the active inequalities, whose factors are given.
   Eigen::VectorXd reduced_costs(const Functional& f, std::size_t number,
                                 const Eigen::PartialPivLU<Eigen::MatrixXd>& active) const {
-    const PolytopeBlock& block = polytope_.blocks[number];
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
-    for (const auto& [edge, coefficient] : f.on_edges) {
-      const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
-      if (local != block.edges.end() && *local == edge)
-        gradient += coefficient * block.view.slope.row(local - block.edges.begin()).transpose();
-    }
-    return active.transpose().solve(gradient);
+    return active.transpose().solve(gradient_along(polytope_.blocks[number], f));
   }
 
   void add_reduced_costs(std::size_t block, const Basis& basis, const Eigen::VectorXd& costs,

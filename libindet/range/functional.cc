@@ -1,5 +1,7 @@
 #include "libindet/range/functional.h"
 
+#include <algorithm>
+
 #include "libindet/base/rounding_bounds.h"
 
 namespace indet {
@@ -61,6 +63,16 @@ Functional force_component(const EquilibriumProblem& problem, const std::vector<
   }
   if (edges == 2) f.on_unknowns.emplace_back(start + (tangential ? 1 : 0), sign);
   return f;
+}
+
+Eigen::VectorXd gradient_along(const PolytopeBlock& block, const Functional& f) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
+  for (const auto& [edge, coefficient] : f.on_edges) {
+    const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
+    if (local != block.edges.end() && *local == edge)
+      gradient += coefficient * block.view.slope.row(local - block.edges.begin()).transpose();
+  }
+  return gradient;
 }
 
 }  // namespace indet

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/polytope/force_polytope.h"
 
 namespace indet {
 
@@ -35,5 +36,8 @@ Functional sum_of_forces(const EquilibriumProblem& problem, const Eigen::VectorX
 /// EquilibriumProblem::first_unknowns. Nothing of a contact that is open.
 Functional force_component(const EquilibriumProblem& problem, const std::vector<int>& first,
                            Eigen::Index contact, bool tangential, double sign);
+
+/// How the part of a functional that lives on a block grows along its coordinates z. [d]
+Eigen::VectorXd gradient_along(const PolytopeBlock& block, const Functional& f);
 
 }  // namespace indet

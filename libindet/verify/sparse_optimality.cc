@@ -7,12 +7,12 @@
 #include <limits>
 #include <map>
 
+#include "libindet/base/tolerances.h"
+
 namespace indet {
 namespace {
 
-constexpr int kRounds = 6;
-/// Makes the normal equations definite where rows of c are dependent; refinement takes its effect out again.
-constexpr double kRidge = 1e-12;
+constexpr int kRounds = 6;  ///< of refinement, which takes the effect of the ridge out again
 
 using Normals = std::map<int, std::vector<Vector2>>;
 
@@ -74,7 +74,7 @@ double sparse_optimality_gap(const RebuiltProblem& problem, int component, doubl
   Eigen::SparseMatrix<double> identity(c.rows(), c.rows());
   identity.setIdentity();
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(
-      Eigen::SparseMatrix<double>(free * free.transpose()) + kRidge * identity);
+      Eigen::SparseMatrix<double>(free * free.transpose()) + tolerance::kOptimalityRidge * identity);
   if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(c.rows());
   const Eigen::Map<const Eigen::VectorXd> wanted(gradient.data(), std::ssize(gradient));
