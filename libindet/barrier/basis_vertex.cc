@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "libindet/barrier/block_cholesky.h"
 #include "libindet/barrier/vectors.h"
 #include "libindet/base/tolerances.h"
 
@@ -10,76 +11,116 @@ namespace indet::barrier {
 namespace {
 
 constexpr int kMostRounds = 4;
+/// A column is well independent of others from this share of the most independent one on.
+constexpr double kIndependent = 1e-3;
 
 std::size_t at(int column) { return static_cast<std::size_t>(column); }
 
 }  // namespace
 
 BasisVertex::BasisVertex(const BlockStructure& structure)
-    : structure_(structure), cholesky_(structure), is_basic_(at(structure.columns())) {}
+    : structure_(structure), factor_(structure), place_(at(structure.columns()), -1) {}
 
 bool BasisVertex::set_basis(std::span<const double> rank) {
   std::vector<int> order(rank.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank[at(a)] > rank[at(b)]; });
-  closed_.assign(order.begin() + structure_.rows(), order.end());
-  std::sort(closed_.begin(), closed_.end());
-  return factor();
+  std::vector<int> basis(order.begin(), order.begin() + structure_.rows());
+  std::sort(basis.begin(), basis.end());
+  const std::vector<BasisFactor::Dependent> dependent = factor_.factor(basis);
+  for (const auto& [p, row] : dependent) basis[at(p)] = factor_.unit_column(row);
+  if (!dependent.empty() && !factor_.factor(basis).empty()) return false;
+  std::fill(place_.begin(), place_.end(), -1);
+  for (std::size_t p = 0; p < basis.size(); ++p) {
+    if (basis[p] < factor_.unit_column(0)) place_[at(basis[p])] = static_cast<int>(p);
+  }
+  for (const auto& [p, row] : dependent) {
+    if (!take_independent(p, order)) return false;
+  }
+  closed_.clear();
+  for (std::size_t k = 0; k < place_.size(); ++k) {
+    if (place_[k] < 0) closed_.push_back(static_cast<int>(k));
+  }
+  return true;
 }
 
-bool BasisVertex::exchange(int entering, int leaving) {
+/// The first column of the order that is independent of all but the one at a place comes there.
+bool BasisVertex::take_independent(int place, const std::vector<int>& order) {
+  std::vector<double> y(at(structure_.rows()), 0);
+  y[at(place)] = 1;
+  factor_.solve_transposed(y);
+  const std::vector<double> along = transposed_product(structure_, y);
+  const double enough = kIndependent * largest_entry(along);
+  for (const int column : order) {
+    if (is_basic(column) || std::abs(along[at(column)]) < enough) continue;
+    place_[at(column)] = place;
+    return factor_.replace(place, column, places_along(column));
+  }
+  return false;
+}
+
+std::vector<double> BasisVertex::places_along(int column) const {
+  std::vector<double> unit(place_.size(), 0);
+  unit[at(column)] = 1;
+  std::vector<double> along = product(structure_, unit);
+  factor_.solve(along);
+  return along;
+}
+
+bool BasisVertex::exchange(int entering, int leaving, const std::vector<double>& along) {
+  std::vector<double> of_places;
+  for (const int column : factor_.basis()) of_places.push_back(-along[at(column)]);
   *std::lower_bound(closed_.begin(), closed_.end(), entering) = leaving;
   std::sort(closed_.begin(), closed_.end());
-  return factor();
+  std::swap(place_[at(entering)], place_[at(leaving)]);
+  return factor_.replace(place_[at(entering)], entering, of_places);
 }
 
-bool BasisVertex::factor() {
-  std::fill(is_basic_.begin(), is_basic_.end(), 1);
-  for (const int column : closed_) is_basic_[at(column)] = 0;
-  if (!cholesky_.factor(is_basic_)) return false;
-  x_ = solution(structure_.load());
-  // A row that was left out of the factor shows here.
-  std::vector<double> left = product(structure_, x_);
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= structure_.load()[i];
-  return largest_entry(left) <= tolerance::kPrimalResidual * std::max(1.0, largest_entry(x_));
-}
-
-std::vector<double> BasisVertex::solution(std::span<const double> load) const {
-  std::vector<double> x(is_basic_.size(), 0);
+std::optional<std::vector<double>> BasisVertex::solution(std::span<const double> load) const {
+  std::vector<double> x(place_.size(), 0);
   std::vector<double> left(load.begin(), load.end());
-  const double enough = tolerance::kVertexRounding * largest_entry(left);
-  for (int round = 0; round < kMostRounds && largest_entry(left) > enough; ++round) {
-    cholesky_.solve(left);
-    const std::vector<double> along = transposed_product(structure_, left);
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] += is_basic_[k] * along[k];
+  const double size = largest_entry(left);
+  for (int round = 0; round < kMostRounds && largest_entry(left) > tolerance::kVertexRounding * size;
+       ++round) {
+    factor_.solve(left);
+    for (std::size_t p = 0; p < left.size(); ++p) x[at(factor_.basis()[p])] += left[p];
     left = product(structure_, x);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] = load[i] - left[i];
   }
+  if (!(largest_entry(left) <= tolerance::kPrimalResidual * std::max(size, largest_entry(x)))) return {};
   return x;
 }
 
 std::vector<double> BasisVertex::direction(int entering) const {
-  std::vector<double> unit(is_basic_.size(), 0);
-  unit[at(entering)] = -1;
-  std::vector<double> result = solution(product(structure_, unit));
+  std::vector<double> result(place_.size(), 0);
+  const std::vector<double> along = places_along(entering);
+  for (std::size_t p = 0; p < along.size(); ++p) result[at(factor_.basis()[p])] = -along[p];
   result[at(entering)] = 1;
   return result;
 }
 
+std::vector<double> BasisVertex::row(int basic) const {
+  std::vector<double> y(at(structure_.rows()), 0);
+  y[at(place_[at(basic)])] = -1;
+  factor_.solve_transposed(y);
+  std::vector<double> rates = transposed_product(structure_, y);
+  for (const int column : factor_.basis()) rates[at(column)] = column == basic ? 1 : 0;
+  return rates;
+}
+
 std::vector<double> BasisVertex::price(std::vector<double>& costs) const {
   std::vector<double> y(at(structure_.rows()), 0);
-  std::vector<double> left(costs.size());
+  std::vector<double> left(y.size());
   const auto basic_costs = [&] {
-    for (std::size_t k = 0; k < costs.size(); ++k) left[k] = is_basic_[k] * costs[k];
+    for (std::size_t p = 0; p < left.size(); ++p) left[p] = costs[at(factor_.basis()[p])];
     return largest_entry(left);
   };
   const double enough = tolerance::kVertexRounding * largest_entry(costs);
   for (int round = 0; round < kMostRounds && basic_costs() > enough; ++round) {
-    std::vector<double> step = product(structure_, left);
-    cholesky_.solve(step);
-    const std::vector<double> along = transposed_product(structure_, step);
+    factor_.solve_transposed(left);
+    const std::vector<double> along = transposed_product(structure_, left);
     for (std::size_t k = 0; k < costs.size(); ++k) costs[k] -= along[k];
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] += step[i];
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += left[i];
   }
   return y;
 }

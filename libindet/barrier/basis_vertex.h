@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "libindet/barrier/block_cholesky.h"
+#include "libindet/barrier/basis_factor.h"
 #include "libindet/barrier/block_structure.h"
 
 namespace indet::barrier {
@@ -13,40 +14,45 @@ namespace indet::barrier {
 ///
 ///   x_B = A_B⁻¹ b,   of an objective c: multipliers y = A_B⁻ᵀ c_B, reduced costs h = c − Aᵀ y
 ///
-/// (Dantzig, Linear Programming and Extensions, 1963). Solved by the Cholesky factor of A_B A_Bᵀ, which has
-/// the structure of all others here, and refined, since that product squares the condition.
+/// (Dantzig, Linear Programming and Extensions, 1963). Solved by the LU factor of A_B, and refined.
 class BasisVertex {
  public:
   /// `structure` must outlive this. No basis yet.
   explicit BasisVertex(const BlockStructure& structure);
 
   /// Takes the columns of largest `rank` as basis, as many as there are rows; of equals those with smaller
-  /// numbers. Returns whether they are independent, as far as double precision tells.
+  /// numbers; in place of columns that depend on others the next ones that do not. Returns whether the basis
+  /// is regular, as far as double precision tells.
   bool set_basis(std::span<const double> rank);
-  /// Another column in place of one of the basis. Returns as above.
-  bool exchange(int entering, int leaving);
+  /// Another column in place of one of the basis; `along`: the direction of the entering one. Returns as
+  /// above.
+  bool exchange(int entering, int leaving, const std::vector<double>& along);
+  /// The factor is new: there is no rounding of exchanges in it.
+  bool is_fresh() const { return factor_.replaced() == 0; }
 
   /// The columns that are not in the basis, ascending.
   const std::vector<int>& closed() const { return closed_; }
-  bool is_basic(int column) const { return is_basic_[static_cast<std::size_t>(column)] > 0; }
+  bool is_basic(int column) const { return place_[static_cast<std::size_t>(column)] >= 0; }
 
-  /// x, exactly 0 at closed columns; negative where B is not feasible.
-  const std::vector<double>& x() const { return x_; }
-  /// The same for another b, in the structure's order.
-  std::vector<double> solution(std::span<const double> load) const;
-  /// How x changes for each unit of x of a closed column, so that A x stays.
+  /// x, exactly 0 at closed columns; negative where B is not feasible. `load`: b or another one, in the
+  /// structure's order. Nothing where rounding leaves too much of it.
+  std::optional<std::vector<double>> solution(std::span<const double> load) const;
+  /// How x changes for each unit of x of a closed column, so that A x stays. Not refined, as is `row`.
   std::vector<double> direction(int entering) const;
+  /// How the x of a basic column changes with that of each closed one.
+  std::vector<double> row(int basic) const;
   /// y of an objective, one weight a column; its reduced costs take the place of these.
   std::vector<double> price(std::vector<double>& costs) const;
 
  private:
-  bool factor();
+  bool take_independent(int place, const std::vector<int>& order);
+  /// A_B⁻¹ a of a column a.
+  std::vector<double> places_along(int column) const;
 
   const BlockStructure& structure_;
-  BlockCholesky cholesky_;
-  std::vector<double> is_basic_;  ///< 1 or 0, one a column
+  BasisFactor factor_;
+  std::vector<int> place_;  ///< in the basis, one a column; −1 if it is closed
   std::vector<int> closed_;
-  std::vector<double> x_;
 };
 
 }  // namespace indet::barrier

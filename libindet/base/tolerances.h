@@ -466,7 +466,7 @@ inline constexpr double kVertexRounding = 1e-13;
 /// An entry of a direction along an edge of the polytope that is smaller than this stays as it is.
 inline constexpr double kVertexPivot = 1e-7;
 /// Steps from the basis that the interior point method proposes to the best one at most.
-inline constexpr int kMostVertexSteps = 200;
+inline constexpr int kMostVertexSteps = 2000;
 
 /// An objective whose gap has not fallen below this share of the smallest before, in so many iterations, is
 /// given up with what it has.

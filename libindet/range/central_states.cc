@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "libindet/barrier/lexicographic_vertex.h"
@@ -21,14 +22,14 @@
 namespace indet {
 namespace {
 
-/// One search of all states that are not found yet. Smaller δ need fewer steps of the simplex method, but let
-/// rounding propose more bases that are not feasible.
+/// One search of all states that are not found yet: a basis that is not proven best in one often is in
+/// another.
 struct Round {
   double delta = 0;      ///< weight of ΣR beside the value
   double shift = 0;      ///< of b: as if strengths of the centre grew by up to this share
   double least_aim = 0;  ///< LockStepOptions::least_aim
 };
-constexpr Round kRounds[] = {{1e-8, 1e-4, 0.01}, {1e-7, 1e-3, 0.1}, {1e-5, 1e-3, 0.1}, {1e-4, 1e-2, 0.1}};
+constexpr Round kRounds[] = {{1e-8, 1e-4, 0.01}, {1e-8, 1e-6, 0.1}, {1e-9, 1e-5, 0.1}};
 constexpr double kGap = 1e-12;      ///< of the interior point method
 constexpr double kTieBreak = 1e-2;  ///< weight of the generic functional beside ΣR
 
@@ -142,7 +143,9 @@ class StateSearch {
     barrier::BasisVertex basis(central_.structure);
     int steps = 0;
     if (basis.set_basis(rank)) {
-      auto vertex = barrier::find_lexicographic_vertex(basis, costs, shifted.load(), steps);
+      auto vertex = barrier::find_lexicographic_vertex(
+          basis, costs, central_.structure.load(), shifted.load(),
+          {.keep_on = [this] { return std::this_thread::get_id() != caller_ || keep_on(); }, .steps = steps});
       if (vertex) {
         vertices_[iterate.objective] = std::move(vertex);
         ++settled_;
@@ -213,6 +216,7 @@ class StateSearch {
   std::vector<double> normal_, generic_;  ///< g and h
   std::vector<WantedState> targets_;
   std::vector<std::optional<barrier::LexicographicVertex>> vertices_;  ///< of each target
+  std::thread::id caller_ = std::this_thread::get_id();  ///< that shows progress, and hears of signals
   std::atomic<std::int64_t> settled_ = 0, iterations_ = 0;
 };
 

@@ -1,0 +1,100 @@
+#include "libindet/barrier/basis_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numeric>
+
+#include "libindet/base/random.h"
+#include "tests/barrier/sets.h"
+
+namespace indet::barrier {
+namespace {
+
+using test::packings;
+using test::StrengthSet;
+
+/// Columns of A that are independent, one a row.
+std::vector<int> independent_columns(const Eigen::MatrixXd& A) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(A);
+  std::vector<int> columns;
+  for (Eigen::Index k = 0; k < A.rows(); ++k)
+    columns.push_back(static_cast<int>(lu.permutationQ().indices()[k]));
+  return columns;
+}
+
+Eigen::MatrixXd basis_matrix(const Eigen::MatrixXd& A, const std::vector<int>& basis) {
+  Eigen::MatrixXd B(A.rows(), A.rows());
+  for (Eigen::Index p = 0; p < B.cols(); ++p) B.col(p) = A.col(basis[static_cast<std::size_t>(p)]);
+  return B;
+}
+
+/// Both kinds of equations against a dense factor.
+void expect_solves(const BasisFactor& factor, const Eigen::MatrixXd& A, Random& random) {
+  const Eigen::MatrixXd B = basis_matrix(A, factor.basis());
+  Eigen::VectorXd load(A.rows());
+  for (double& value : load) value = random.uniform(-1, 1);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> dense(B);
+  std::vector<double> r(load.begin(), load.end()), c = r;
+  factor.solve(r);
+  factor.solve_transposed(c);
+  const Eigen::VectorXd x = dense.solve(load), y = dense.transpose().solve(load);
+  EXPECT_LE((test::vector(r) - x).cwiseAbs().maxCoeff(), 1e-9 * (1 + x.cwiseAbs().maxCoeff()));
+  EXPECT_LE((test::vector(c) - y).cwiseAbs().maxCoeff(), 1e-9 * (1 + y.cwiseAbs().maxCoeff()));
+}
+
+TEST(BasisFactor, SolvesAsADenseFactorDoesAfterManyExchanges) {
+  for (const auto& [name, packing] : packings()) {
+    SCOPED_TRACE(name);
+    const StrengthSet set(packing);
+    const Eigen::MatrixXd A = set.matrix();
+    BasisFactor factor(set.structure);
+    ASSERT_TRUE(factor.factor(independent_columns(A)).empty());
+    Random random(1);
+    expect_solves(factor, A, random);
+    int exchanged = 0;
+    for (int k = 0; k < 200; ++k) {
+      const int entering = static_cast<int>(random.uniform() * static_cast<double>(A.cols()));
+      const std::vector<int>& basis = factor.basis();
+      if (std::find(basis.begin(), basis.end(), entering) != basis.end()) continue;
+      // Any place whose column can be given up for it.
+      std::vector<double> along(A.col(entering).begin(), A.col(entering).end());
+      factor.solve(along);
+      const int p = static_cast<int>(random.uniform() * static_cast<double>(A.rows()));
+      if (std::abs(along[static_cast<std::size_t>(p)]) < 0.1) continue;
+      ASSERT_TRUE(factor.replace(p, entering, along));
+      EXPECT_EQ(factor.basis()[static_cast<std::size_t>(p)], entering);
+      ++exchanged;
+    }
+    expect_solves(factor, A, random);
+    if (A.cols() > A.rows() + 20) EXPECT_GT(exchanged, 5);
+  }
+}
+
+TEST(BasisFactor, SaysWhichColumnsAreDependent) {
+  for (const auto& [name, packing] : packings()) {
+    SCOPED_TRACE(name);
+    const StrengthSet set(packing);
+    const Eigen::MatrixXd A = set.matrix();
+    if (A.rows() < 6) continue;
+    std::vector<int> basis = independent_columns(A);
+    BasisFactor factor(set.structure);
+    ASSERT_TRUE(factor.factor(basis).empty());
+    std::vector<double> along(A.col(basis[1]).begin(), A.col(basis[1]).end());
+    factor.solve(along);
+    EXPECT_FALSE(factor.replace(0, basis[1], along));
+    basis[0] = basis[1];
+    basis[4] = basis[5];
+    const auto dependent = factor.factor(basis);
+    ASSERT_EQ(dependent.size(), 2u);
+    // Unit vectors in their places make it regular.
+    for (const auto& [p, row] : dependent) {
+      EXPECT_TRUE(p == 0 || p == 1 || p == 4 || p == 5);
+      basis[static_cast<std::size_t>(p)] = factor.unit_column(row);
+    }
+    EXPECT_TRUE(factor.factor(basis).empty());
+  }
+}
+
+}  // namespace
+}  // namespace indet::barrier
