@@ -266,16 +266,23 @@ double VerifiedEquations::lower_bound(const Objective& objective, std::span<cons
   return std::isnan(bound) ? -kInfinity : bound;
 }
 
-double VerifiedEquations::upper_bound(const Objective& objective, std::span<const double> x) const {
+VerifiedEquations::NearState VerifiedEquations::state_near(std::span<const double> x) const {
+  constexpr NearState kNowhere{kInfinity, kInfinity};
   const double shift = shift_of(x);
-  if (!(shift < kInfinity)) return kInfinity;
+  if (!(shift < kInfinity)) return kNowhere;
   double share = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {
     const double left = x[k] - widen_ * centre_.x[k] * shift;
     if (left < 0) share = std::max(share, -left / (centre_.x[k] * (1 - centre_shift_) - left));
-    if (std::isnan(left)) return kInfinity;
+    if (std::isnan(left)) return kNowhere;
   }
   share = std::min(1.0, widen_ * share);
+  return {share, shift + share * centre_shift_};
+}
+
+double VerifiedEquations::upper_bound(const Objective& objective, std::span<const double> x) const {
+  const auto [share, shift] = state_near(x);
+  if (!(shift < kInfinity)) return kInfinity;
   double value = 0, middle = 0, reach = 0, size = 0;
   for (const auto& [column, weight] : objective) {
     const auto k = static_cast<std::size_t>(column);
@@ -285,10 +292,8 @@ double VerifiedEquations::upper_bound(const Objective& objective, std::span<cons
     size += std::abs(weight) * (std::abs(x[k]) + centre_.x[k]);
   }
   const double terms = 6 + static_cast<double>(objective.size());
-  const double bound = value +
-                       widen_ * (share * std::abs(middle - value) + reach * (shift + share * centre_shift_) +
-                                 2 * gamma(terms) * size) +
-                       kTiny;
+  const double bound =
+      value + widen_ * (share * std::abs(middle - value) + reach * shift + 2 * gamma(terms) * size) + kTiny;
   return std::isnan(bound) ? kInfinity : bound;
 }
 

@@ -55,6 +55,17 @@ class VerifiedEquations {
   std::vector<double> repaired(std::span<const double> x) const;
   /// Bounds of the least value of the objective. `x`: repaired. They hold whatever x and y are.
   ValueBounds enclose(const Objective& objective, std::span<const double> x, std::span<const double> y) const;
+  /// The lower one of these bounds, of any y.
+  double lower_bound(const Objective& objective, std::span<const double> y) const;
+  /// Where an exact state x̃ of the set is, near a repaired x: for each k
+  ///
+  ///   |x̃_k − x_k − share (x_c,k − x_k)| ≤ reach x_c,k
+  ///
+  /// Both are infinite where nothing is proven.
+  struct NearState {
+    double share = 0, reach = 0;
+  };
+  NearState state_near(std::span<const double> x) const;
   /// Multipliers y that make ‖X (c − Aᵀ y)‖₂ least, from one solution: (A X² Aᵀ) y = A X² cᵀ.
   std::vector<double> nearest_multipliers(const Objective& objective) const;
   /// Bounds of c·x over the whole set, which hold whatever y is: duality for c with y and for −c with −y.
@@ -68,7 +79,6 @@ class VerifiedEquations {
   void bound_strengths();
   /// η of x.
   double shift_of(std::span<const double> x) const;
-  double lower_bound(const Objective& objective, std::span<const double> y) const;
   double upper_bound(const Objective& objective, std::span<const double> x) const;
   /// Aᵀ y with bounds of what rounding did to it, and to the entries of A.
   struct Transposed {

@@ -46,8 +46,8 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
 
 }  // namespace
 
-CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows)
-    : structure(problem, rows) {
+CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> independent)
+    : rows(independent.begin(), independent.end()), structure(problem, rows) {
   barrier::BlockCholesky cholesky(structure);
   centre = barrier::find_analytic_centre(structure, cholesky);
   if (centre.found) equations.emplace(problem, structure, centre);
