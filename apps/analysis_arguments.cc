@@ -162,6 +162,11 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
             "all, but none where some contacts only are asked for, or estimates")
         ->check(CLI::IsMember({"auto", "all", "none"}))
         ->capture_default_str();
+    command.add_flag(
+        "--smallest-distances", arguments.smallest_distances,
+        "Also find dR_min and dT_min of these contacts: the smallest distance between a state of "
+        "largest and one of smallest R (or T), whichever of several extremal states are stored. "
+        "It takes longer than the ranges themselves");
   }
   command
       .add_option(
@@ -223,6 +228,10 @@ AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const C
           "--calibrate has no effect without --accuracy estimate, whose predictions it is about");
     options.contacts = parse_contacts(arguments, contacts);
   }
+  if (arguments.smallest_distances && options.estimate)
+    throw UsageError(
+        "--smallest-distances has no effect with --accuracy estimate, which looks for no extremal states");
+  options.smallest_distances = arguments.smallest_distances;
   const bool wants_all = options.contacts.kind == ContactChoice::Kind::kAll && !options.estimate;
   options.reactions = arguments.reactions == "all" || (arguments.reactions == "auto" && wants_all);
   options.formulation = parse_formulation(arguments.formulation);

@@ -20,6 +20,7 @@
 #include "libindet/range/extrema.h"
 #include "libindet/range/extremal_search.h"
 #include "libindet/range/reactions.h"
+#include "libindet/range/smallest_distances.h"
 
 namespace indet {
 namespace {
@@ -136,6 +137,17 @@ Wanted choose_contacts(const ContactChoice& choice, const ForcePolytope& polytop
   return wanted;
 }
 
+void add_smallest_distances(const ForcePolytope& polytope, const std::vector<int>& contacts,
+                            const AnalyzeOptions& options, ForceRanges& ranges) {
+  IntervalOptions search = interval_options(options);
+  if (options.progress) {
+    search.progress = [&options](std::int64_t settled, std::int64_t total) {
+      return options.progress({"smallest distances", settled, total, {}});
+    };
+  }
+  ranges.smallest = find_smallest_distances(polytope, ranges, contacts, search);
+}
+
 /// Says why there are no estimates of a polytope that is not empty.
 void require_centre(const ForcePolytope& polytope) {
   if (polytope.doubtful)
@@ -199,6 +211,8 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
         assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
     ranges.reactions = std::move(found.reactions);
     stopwatch.mark("measures");
+    if (options.smallest_distances) add_smallest_distances(polytope, contacts, options, ranges);
+    stopwatch.mark("smallest distances");
     ranges.seconds = std::move(seconds);
     return ranges;
   }
@@ -220,6 +234,11 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);
   stopwatch.mark("measures");
+  if (options.smallest_distances) {
+    if (!polytope.central) add_centre(polytope);
+    add_smallest_distances(polytope, contacts, options, ranges);
+  }
+  stopwatch.mark("smallest distances");
   ranges.seconds = std::move(seconds);
   return ranges;
 }

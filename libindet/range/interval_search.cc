@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <numeric>
-#include <optional>
-#include <thread>
+#include <utility>
 
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/motion_rows.h"
+#include "libindet/range/lock_step_team.h"
 #include "libindet/range/sensitivity.h"
 
 namespace indet {
@@ -48,48 +47,17 @@ class IntervalSearch {
     return interval.upper - interval.lower <= options_.gap * size;
   }
 
-  /// Searches these objectives on all threads, the calling one among them.
   void search(const std::vector<std::size_t>& wanted, double share, double least_aim) {
-    if (wanted.empty()) return;
-    std::atomic<std::size_t> next = 0;
     barrier::LockStepOptions lock_step;
     lock_step.gap = share * options_.gap;
     lock_step.least = least_;
     lock_step.least_aim = least_aim;
-    const auto run = [&](bool is_calling_thread) {
-      barrier::minimise_in_lock_step(
-          central_.structure, central_.centre, lock_step,
-          {.next = [&]() -> std::optional<std::size_t> {
-             const std::size_t k = next++;
-             return k < wanted.size() ? std::optional(wanted[k]) : std::nullopt;
-           },
-           .objective = [&](std::size_t k) -> const barrier::Objective& { return objectives_[k]; },
-           .finish = [&](const barrier::Iterate& iterate) { settle(iterate); },
-           .keep_on = [&] { return is_wanted(is_calling_thread); }});
-    };
-    const auto guarded = [&](bool is_calling_thread) {
-      try {
-        run(is_calling_thread);
-      } catch (...) {
-        if (!stopped_.exchange(true)) failure_ = std::current_exception();
-      }
-    };
-    {
-      std::vector<std::jthread> others;
-      const auto lanes = static_cast<std::size_t>(std::max(1, options_.threads));
-      const std::size_t useful = std::min(lanes, (wanted.size() + 7) / 8);
-      for (std::size_t k = 1; k < useful; ++k) others.emplace_back(guarded, false);
-      guarded(true);
-    }
-    if (failure_) std::rethrow_exception(failure_);
-    if (stopped_) throw Interrupted();
-  }
-
-  bool is_wanted(bool is_calling_thread) {
-    if (is_calling_thread && options_.progress &&
-        !options_.progress(settled_, static_cast<std::int64_t>(objectives_.size())))
-      stopped_ = true;
-    return !stopped_;
+    const auto total = static_cast<std::int64_t>(objectives_.size());
+    minimise_on_threads(
+        central_.structure, central_.centre, lock_step, wanted, options_.threads,
+        {.objective = [&](std::size_t k) -> const barrier::Objective& { return objectives_[k]; },
+         .finish = [&](const barrier::Iterate& iterate) { settle(iterate); },
+         .keep_on = [&] { return !options_.progress || options_.progress(settled_, total); }});
   }
 
   void settle(const barrier::Iterate& iterate) {
@@ -119,8 +87,6 @@ class IntervalSearch {
   double least_;  ///< 1 mg in the unit of the problem
   std::vector<ValueInterval> intervals_;
   std::atomic<std::int64_t> settled_ = 0;
-  std::atomic<bool> stopped_ = false;
-  std::exception_ptr failure_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "libindet/base/tolerances.h"
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/comparisons.h"
+#include "libindet/verify/distances_check.h"
 #include "libindet/verify/draws_check.h"
 #include "libindet/verify/enclosed_check.h"
 #include "libindet/verify/estimate_check.h"
@@ -39,6 +40,7 @@ class Verifier {
     check_measures();
     check_counts();
     check_enclosed(packing_, ranges_, progress_, compare_);
+    check_smallest_distances(packing_, ranges_, problem_, compare_);
     check_hull();
     name_the_rest();
     check_reactions(packing_, ranges_, problem_, compare_);
