@@ -154,7 +154,8 @@ class DistanceSearch {
     }
     barrier::LockStepOptions lock_step;
     lock_step.gap = kShareOfGap / factor;
-    lock_step.least = weight_;
+    // Where bounds of forces are narrow the unit is small beside 1 mg, and so are distances.
+    lock_step.least = std::min(weight_, 1.0);
     lock_step.least_aim = kLeastAim;
     minimise_on_threads(
         pairs_.structure(), pairs_.centre(), lock_step, wanted, options_.threads,
@@ -228,13 +229,15 @@ SmallestDistances find_smallest_distances(const ForcePolytope& polytope, const C
   DistanceSearch search(polytope, certified, contacts, options);
   const double unit = polytope.problem.units.internal_in_weights();
   for (const Candidate& force : search.run()) {
-    if (!std::isfinite(force.distance) || !std::isfinite(force.shortage)) {
+    const bool is_known = search.is_known(force);
+    // Bounds that leave a factor of two tell nothing: proven states are far from where the search ended.
+    const bool tells = is_known || 2 * force.lower >= force.distance;
+    if (!std::isfinite(force.distance) || !std::isfinite(force.shortage) || !tells) {
       set(force.contact, force.component, kNaN, kNaN, kNaN, Outcome::kFailed);
       continue;
     }
-    const bool is_known = !polytope.doubtful && search.is_known(force);
     set(force.contact, force.component, force.distance * unit, force.lower * unit, force.shortage * unit,
-        is_known ? Outcome::kEnclosed : Outcome::kImprecise);
+        is_known && !polytope.doubtful ? Outcome::kEnclosed : Outcome::kImprecise);
   }
   return result;
 }

@@ -28,7 +28,8 @@ struct SmallestDistances {
   Table lower;     ///< No two states of extremal value are nearer: proven.
   Table shortage;  ///< By how much, together, the values of the two states miss the extremes at most.
   /// kEnclosed: shortage and |d − lower| are within tolerance (tolerance::kFaceShortage, kDistanceGap).
-  /// kImprecise: they are not. kFailed: nothing is known. kNotRequested.
+  /// kImprecise: they are not. kFailed: there is no centre, or the bounds leave a factor
+  /// of two. kNotRequested.
   Eigen::Array<Outcome, Eigen::Dynamic, 2, Eigen::RowMajor> outcome;
 
   Eigen::VectorXd& of(int component) { return component == 0 ? d_R : d_T; }
