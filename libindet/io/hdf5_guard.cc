@@ -58,21 +58,27 @@ std::vector<std::string> ancestors(const std::string& path) {
 }
 
 bool exists(const Session& session, const std::string& object) {
-  if (object == "/") return true;
+  if (object == "/" || session.known.contains(object)) return true;
   std::vector<std::string> links = ancestors(object);
   links.push_back(object);
   for (const std::string& link : links) {
+    if (session.known.contains(link)) continue;
     if (H5Lexists(session.file.get(), link.c_str(), H5P_DEFAULT) <= 0) return false;
     H5L_info_t info;
     session.check(H5Lget_info(session.file.get(), link.c_str(), &info, H5P_DEFAULT), link);
     if (info.type != H5L_TYPE_HARD) session.fail(link, "is a link to elsewhere, which is not followed");
+    session.known.insert(link);
   }
   return true;
 }
 
 Handle open_object(const Session& session, const std::string& object) {
+  if (session.last_path == object) return session.last.share();
   if (!exists(session, object)) session.fail(object, "is missing");
-  return session.own(H5Oopen(session.file.get(), object.c_str(), H5P_DEFAULT), object);
+  session.last_path.clear();
+  session.last = session.own(H5Oopen(session.file.get(), object.c_str(), H5P_DEFAULT), object);
+  session.last_path = object;
+  return session.last.share();
 }
 
 Handle open_dataset(const Session& session, const std::string& object) {

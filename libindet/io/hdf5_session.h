@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -41,6 +42,11 @@ class Handle {
     if (id_ >= 0) H5Idec_ref(id_);
   }
   hid_t get() const { return id_; }
+  /// Another owner of the same identifier.
+  Handle share() const {
+    H5Iinc_ref(id_);
+    return Handle(id_);
+  }
   hid_t release() { return std::exchange(id_, H5I_INVALID_HID); }
 
  private:
@@ -56,6 +62,11 @@ struct Session {
   bool is_written = false;  ///< Failures are Hdf5WriteError; else Hdf5ReadError.
   Handle file;
   std::size_t file_size = 0;  ///< Bytes, of a file that is read.
+  /// Paths that are hard links. To follow one from the root takes the library longer than to read a number.
+  mutable std::set<std::string> known;
+  /// The object that was opened last: its attributes are read one after the other.
+  mutable std::string last_path;
+  mutable Handle last;
 
   [[noreturn]] void fail(const std::string& object, const std::string& reason) const;
   Handle own(hid_t id, const std::string& object) const;

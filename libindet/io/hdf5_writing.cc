@@ -110,6 +110,8 @@ void link(const Session& session, const std::string& object, const std::string& 
 }
 
 std::vector<unsigned char> close_to_bytes(Session& session) {
+  session.last_path.clear();
+  session.last = Handle();
   session.check(H5Fflush(session.file.get(), H5F_SCOPE_GLOBAL), "flush");
   const ssize_t size = H5Fget_file_image(session.file.get(), nullptr, 0);
   if (size < 0) session.fail("flush", library_message());

@@ -65,7 +65,7 @@ class DamagedFiles(ProgramTest):
     def test_flipped_bits_never_crash(self):
         data = self.whole_file()
         chance = random.Random(2)
-        for number in range(40):
+        for number in range(25):
             flipped = bytearray(data)
             place = chance.randrange(len(data))
             flipped[place] ^= 1 << chance.randrange(8)
@@ -153,6 +153,10 @@ class Disks(ProgramTest):
         self.assertIn("small/r.h5", done.stderr)
 
 
+# An analysis that takes a second and goes through all stages.
+SOME = ["analyze", "p.h5", "--contacts", "sample:60"]
+
+
 class LammpsPacking(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -167,7 +171,7 @@ class Memory(LammpsPacking):
         seen = set()
         for megabytes in (160, 200, 250, 300, 2000):
             limit = megabytes << 20
-            done = subprocess.run([program.INDET, "--threads", "2", "analyze", "p.h5", "-o", "r.h5"], cwd=self.folder,
+            done = subprocess.run([program.INDET, "--threads", "2", *SOME, "-o", "r.h5"], cwd=self.folder,
                                   capture_output=True, text=True, timeout=60, check=False,
                                   preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
             seen.add(done.returncode)
@@ -184,9 +188,9 @@ class Interruptions(LammpsPacking):
     def test_signals_at_random_moments(self):
         chance = random.Random(3)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL) * 3:
-            process = subprocess.Popen([program.INDET, "analyze", "p.h5", "-o", "r.h5"], cwd=self.folder,
+            process = subprocess.Popen([program.INDET, *SOME, "-o", "r.h5"], cwd=self.folder,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            time.sleep(chance.uniform(0, 1.5))
+            time.sleep(chance.uniform(0, 0.8))
             process.send_signal(number)
             _, errors = process.communicate(timeout=120)
             allowed = {0, -signal.SIGKILL} if number == signal.SIGKILL else {0, 128 + number, -number}
@@ -202,9 +206,9 @@ class Interruptions(LammpsPacking):
             (self.folder / "r.h5").unlink(missing_ok=True)
 
     def test_the_input_may_vanish_once_it_is_read(self):
-        process = subprocess.Popen([program.INDET, "analyze", "p.h5", "-o", "r.h5"], cwd=self.folder,
+        process = subprocess.Popen([program.INDET, *SOME, "-o", "r.h5"], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(1)
+        time.sleep(0.5)
         (self.folder / "p.h5").rename(self.folder / "q.h5")
         (self.folder / "p.h5").write_bytes(b"something else")
         _, errors = process.communicate(timeout=120)

@@ -45,7 +45,7 @@ class ScaledScenes(program.ProgramTest):
             origin = self.simulated(seed)
             for force_unit in (0.0, 1e-5):  # mg, and one that is not that of the problem
                 expected, compared = self.make(f"s{seed}-{force_unit}", Units().scene(origin, force_unit))
-                for powers in POWERS if force_unit == 0 else POWERS[-1:]:
+                for powers in POWERS if force_unit == 0 and seed == 1 else POWERS[-1:]:
                     units = Units.of_powers(powers)
                     name = f"s{seed}-{force_unit}-{'_'.join(map(str, powers))}"
                     found, again = self.make(name, units.scene(origin, force_unit))
