@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 
 #include "libindet/barrier/stored_entries.h"
 #include "libindet/barrier/vectors.h"
+#include "libindet/base/error.h"
 
 namespace indet::barrier {
 namespace {
@@ -73,9 +73,9 @@ std::vector<BasisFactor::Dependent> BasisFactor::factor(std::span<const int> bas
   }
   const auto size = static_cast<int>(basis.size());
   lu_->symbolic = klu_analyze(size, first.data(), rows.data(), &lu_->common);
-  if (lu_->symbolic == nullptr) throw std::runtime_error("sparse LU failed (KLU)");
+  if (lu_->symbolic == nullptr) throw LibraryError("the basis of a state could not be factorised (KLU)");
   lu_->numeric = klu_factor(first.data(), rows.data(), entries.data(), lu_->symbolic, &lu_->common);
-  if (lu_->numeric == nullptr) throw std::runtime_error("sparse LU failed (KLU)");
+  if (lu_->numeric == nullptr) throw LibraryError("the basis of a state could not be factorised (KLU)");
   std::vector<Dependent> dependent;
   const auto* pivots = static_cast<const double*>(lu_->numeric->Udiag);
   for (int k = 0; k < size; ++k) {
