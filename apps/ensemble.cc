@@ -283,6 +283,11 @@ Command add_ensemble(CLI::App& root) {
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the extremal states that the solver happens to find");
+  command->add_flag(
+      "--smallest-distances", o->config.smallest_distances,
+      "Also find dR_min and dT_min: the smallest distance between a state of largest and one of "
+      "smallest R (or T), whichever extremal states are taken. It takes longer than the ranges "
+      "themselves");
   command->add_option("--members", o->members,
                       "Compute only the packings numbered FIRST-LAST (indet merge joins the parts)");
   add_overwrite_option(*command, o->overwrite);

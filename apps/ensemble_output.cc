@@ -8,6 +8,7 @@
 
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/presentation/figures.h"
+#include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/terminal.h"
 
@@ -86,22 +87,27 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
 
   const FlatTable& runs = contents.tables.runs;
   const double uncertain = runs.sum("imprecise") + runs.sum("failed");
+  const std::string known = known_smallest_distances(contents.tables);
   if (context.json) {
-    std::cout << nlohmann::json{{"output", path.string()},
-                                {"packings", runs.rows()},
-                                {"contacts", contents.tables.contacts.rows()},
-                                {"objectives", runs.sum("objectives")},
-                                {"certified", runs.sum("certified")},
-                                {"unbounded", runs.sum("unbounded")},
-                                {"imprecise", runs.sum("imprecise")},
-                                {"not_found", runs.sum("failed")},
-                                {"done", outcomes.done},
-                                {"skipped", outcomes.skipped},
-                                {"missing", contents.missing},
-                                {"failures", failures_json(outcomes.failures)},
-                                {"seconds", seconds()}}
-                     .dump(2)
-              << '\n';
+    nlohmann::json json = {{"output", path.string()},
+                           {"packings", runs.rows()},
+                           {"contacts", contents.tables.contacts.rows()},
+                           {"objectives", runs.sum("objectives")},
+                           {"certified", runs.sum("certified")},
+                           {"unbounded", runs.sum("unbounded")},
+                           {"imprecise", runs.sum("imprecise")},
+                           {"not_found", runs.sum("failed")},
+                           {"done", outcomes.done},
+                           {"skipped", outcomes.skipped},
+                           {"missing", contents.missing},
+                           {"failures", failures_json(outcomes.failures)},
+                           {"seconds", seconds()}};
+    if (!known.empty()) {
+      json["smallest_distances"] = {{"known", runs.sum("d_min_known")},
+                                    {"imprecise", runs.sum("d_min_imprecise")},
+                                    {"failed", runs.sum("d_min_failed")}};
+    }
+    std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
     fmt::print("{}: {} computed, {} there already, {} failed\n",
                counted(static_cast<std::int64_t>(plan.members.size()), "packing"), outcomes.done,
@@ -112,6 +118,7 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
                runs.sum("objectives"), runs.sum("certified"),
                unbounded > 0 ? fmt::format(" ({} of them unbounded)", unbounded) : "", runs.sum("imprecise"),
                runs.sum("failed"));
+    if (!known.empty()) fmt::print("smallest distances: {}\n", known);
     for (const std::string& name : contents.missing) fmt::print("missing: {}\n", name);
     fmt::print("written to {} ({:.1f} s)\n", path.string(), seconds());
   }

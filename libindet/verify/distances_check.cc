@@ -118,10 +118,31 @@ class DistancesCheck {
     return result;
   }
 
+  /// Compares with the bounds that growing weights prove. They are the distance where they grow no further.
   void check_by_least_squares(int contact, int component) {
-    constexpr double kWeight = 1e4;
+    const double stored = smallest_.of(component)[contact];
+    const double room = tolerance::kDistanceAgain * std::max(1.0, stored);
+    double previous = 0;
+    for (const double weight : {1e4, 1e5, 1e6}) {
+      const std::optional<double> bound = bound_by_least_squares(contact, component, weight);
+      if (!bound) return;
+      const bool is_found = weight > 1e4 && std::abs(*bound - previous) <= 0.1 * room;
+      compare_.require(*bound <= stored + room && (!is_found || *bound >= stored - room),
+                       "{}: {} is stored, but least squares find {}", place(contact, component), stored,
+                       *bound);
+      if (is_found) {
+        ++found_again_;
+        return;
+      }
+      previous = *bound;
+    }
+  }
+
+  /// Least squares of the distance and, times `weight`, of what two states miss balance and the extremes by.
+  /// Nothing if rounding decides.
+  std::optional<double> bound_by_least_squares(int contact, int component, double weight) {
     const Eigen::MatrixXd B = edges();
-    const Eigen::MatrixXd balance = kWeight * (problem_.matrix() * B);
+    const Eigen::MatrixXd balance = weight * (problem_.matrix() * B);
     const Eigen::Index forces = B.rows(), columns = B.cols(), rows = balance.rows();
     const int row = 2 * contact + component;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(forces + 2 * (rows + 1), 2 * columns);
@@ -132,24 +153,19 @@ class DistancesCheck {
     for (const int copy : {0, 1}) {
       const Eigen::Index at = forces + copy * (rows + 1);
       A.block(at, copy * columns, rows, columns) = balance;
-      b.segment(at, rows) = -kWeight * problem_.wrench();
-      A.block(at + rows, copy * columns, 1, columns) = kWeight * B.row(row);
-      b[at + rows] = kWeight * ends[copy];
+      b.segment(at, rows) = -weight * problem_.wrench();
+      A.block(at + rows, copy * columns, 1, columns) = weight * B.row(row);
+      b[at + rows] = weight * ends[copy];
     }
     const Eigen::VectorXd x = solve_nonnegative(A, b);
     const Eigen::VectorXd left = b - A * x;
     // The sum is convex: it is at most so much above the least one.
     const double excess = 2 * std::max(0.0, (A.transpose() * left).maxCoeff()) * x.sum();
-    if (!(excess <= 0.1 * tolerance::kDistanceAgain * std::max(1.0, left.squaredNorm()))) return;
-    // The least sum falls short of the square of the distance by what the forces miss their conditions by,
-    // once more, and the distance is known but for its bounds.
+    if (!(excess <= 0.1 * tolerance::kDistanceAgain * std::max(1.0, left.squaredNorm()))) return std::nullopt;
+    // The square of the distance is convex in the right-hand sides: where these are met it is larger than the
+    // least sum by at least what they are missed by, once more.
     const double missed = left.tail(A.rows() - forces).squaredNorm();
-    if (!(missed <= tolerance::kDistanceAgain * left.squaredNorm())) return;  // W is too small
-    const double found = std::sqrt(left.squaredNorm() + missed);
-    const double stored = smallest_.of(component)[contact];
-    ++found_again_;
-    compare_.require(std::abs(found - stored) <= tolerance::kDistanceAgain * std::max(1.0, stored),
-                     "{}: {} is stored, but least squares find {}", place(contact, component), stored, found);
+    return std::sqrt(left.squaredNorm() + missed);
   }
 
   const Packing& packing_;

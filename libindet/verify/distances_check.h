@@ -13,7 +13,7 @@ namespace indet {
 ///
 ///   minimise ‖B (x − x')‖² + W² (‖c B x + w‖² + ‖c B x' + w‖² + (R − R_max)² + (R' − R_min)²)
 ///
-/// with a large W.
+/// with a large W. That proves a lower bound for any W; it is the distance where ten times W changes nothing.
 void check_smallest_distances(const Packing& packing, const ForceRanges& ranges,
                               const RebuiltProblem& problem, Comparisons& compare);
 

@@ -140,6 +140,14 @@ class Distances(program.ProgramTest):
                     self.assertLess(r["d_min_lower"][contact, k], most + 1e-5)
                     self.assertAlmostEqual(found, most, delta=1.1e-3 * max(1, most))
 
+    def test_least_squares_contradict_nothing_before_they_have_settled(self):
+        """Of contact 8 they find 40.44 mg at the smallest weight, and 40.62 mg at a thousand times that."""
+        self.run_indet("simulate", "--protocol", "cd1", "--disks", 14, "--seed", 0, "--quiet", "-o", "p.h5")
+        self.analyze("p.h5")
+        least, most = Problem(self.folder / "p.h5").smallest_distance(16, weight=1e7)
+        self.assertLess(most - least, 1e-3)
+        self.assertAlmostEqual(self.check()["d_R_min"][8], most, delta=1.1e-3 * most)
+
     def test_methods_threads_and_choices_of_contacts(self):
         self.run_indet("simulate", "--protocol", "md1", "--disks", 20, "--seed", 1, "--quiet", "-o", "p.h5")
         text = self.analyze("p.h5")

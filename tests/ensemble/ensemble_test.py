@@ -161,7 +161,7 @@ class Commands(EnsembleTest):
     def test_an_ensemble_of_an_earlier_version_is_to_be_written_anew(self):
         self.ensemble("e")
         with h5py.File(self.folder / "e/ensemble.h5", "r+") as file:
-            del file["table/runs/paper_walks"]
+            del file["table/runs/d_min_known"]
         self.assertIn("was written by an earlier indet", self.run_indet("inspect", "e", status=3).stderr)
 
     def test_packings_from_elsewhere(self):
@@ -322,7 +322,57 @@ class Agreement(EnsembleTest):
         self.assertTrue(np.isnan(table(self.folder / "e/ensemble.h5", "contacts")["paper_d_R"]).all())
         self.run_indet("report", "e")
         self.assertNotIn("paper's walk (Fig. 8)", (self.folder / "e/figures/comparison.csv").read_text())
+        self.assertNotIn("mallest distance", (self.folder / "e/report.html").read_text())  # not asked for either
         self.assertIn("--paper-walk some: expected a number, or all", self.ensemble("f", "--paper-walk", "some", status=2).stderr)
+
+    def test_smallest_distances_are_those_of_the_command(self):
+        arguments = ["--seeds", "1", "--protocols", "cd1,md1", "--disks", "14", "--samples", "0", "--uniform-seeds", "0",
+                     "--paper-walk", "0"]
+        with_distances = ["ensemble", *arguments, "--smallest-distances"]
+        done = self.run_indet(*with_distances, "-o", "e")
+        for member in "01":
+            self.run_indet(*with_distances, "--members", member, "-o", member)
+        self.run_indet("merge", "0", "1", "-o", "merged")
+        self.assertEqual(content(self.folder / "merged/ensemble.h5"), content(self.folder / "e/ensemble.h5"))
+        again = json.loads(self.run_indet(*with_distances, "-o", "e", "--json").stdout)
+        self.assertEqual((again["done"], again["skipped"]), (0, 2))
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        contacts = table(self.folder / "e/ensemble.h5", "contacts")
+        for row, name in enumerate(runs["member"]):
+            self.run_indet("verify", f"e/members/{name.decode()}.h5")
+            self.run_indet("analyze", f"e/members/{name.decode()}.h5", "--smallest-distances", "-o", f"{name.decode()}.h5")
+            mine = contacts["run"] == row
+            with h5py.File(self.folder / f"{name.decode()}.h5") as file:
+                ranges = file["ranges"]
+                for k, component in enumerate("RT"):
+                    smallest = contacts[f"d_{component}_min"][mine]
+                    np.testing.assert_array_equal(smallest, ranges[f"d_{component}_min"][()])
+                    np.testing.assert_array_equal(contacts[f"d_{component}_min_lower"][mine], ranges["d_min_lower"][:, k])
+                    self.assertTrue((smallest <= contacts[f"d_{component}"][mine] * (1 + 1e-9) + 1e-5).all())
+                    self.assertGreater((contacts[f"d_{component}"][mine] - smallest).max(), 0.1)
+                outcomes = ranges["d_min_outcome"][()]
+            self.assertEqual([runs[f"d_min_{name}"][row] for name in ("known", "imprecise", "failed")],
+                             [(outcomes == value).sum() for value in (5, 2, 3)])
+        count = 2 * len(contacts["run"])
+        self.assertEqual(again["smallest_distances"], {"known": count, "imprecise": 0, "failed": 0})
+        known = f"{count} of {count} known to 0.1 %, 0 imprecise, 0 failed"
+        self.assertIn(f"\nsmallest distances: {known}\n", done.stdout)
+        self.run_indet("report", "e")
+        self.assertIn(f"Smallest distances: {known}.", (self.folder / "e/report.html").read_text())
+        for figure in ("fig08", "fig10"):
+            self.assertIn("set title 'smallest distance'", (self.folder / f"e/figures/{figure}.gp").read_text())
+        self.assertIn("dR, smallest distance (Fig. 10)", (self.folder / "e/figures/comparison.csv").read_text())
+        facts = json.loads(self.run_indet("inspect", "e", "--json").stdout)["facts"]
+        self.assertTrue(facts["dR, dT: smallest distance"].startswith(f"mean {contacts['d_R_min'].mean():.1f} "))
+        self.assertRegex(facts["smallest over canonical dR"], r"^median 0\.\d\d, ")
+        (self.folder / "indet.toml").write_text("[ensemble]\nsmallest-distances = false\n")
+        without = json.loads(self.run_indet("--config", "indet.toml", "ensemble", *arguments, "-o", "e", "--json").stdout)
+        self.assertEqual(without["done"], 2)
+        self.assertNotIn("smallest_distances", without)
+        self.assertTrue(np.isnan(table(self.folder / "e/ensemble.h5", "contacts")["d_R_min"]).all())
+        (self.folder / "wrong.toml").write_text('[ensemble]\nsmallest-distances = "some"\n')
+        done = self.run_indet("--config", "wrong.toml", "ensemble", *arguments, "-o", "f", status=2)
+        self.assertIn("--smallest-distances = some", done.stderr)
 
     def test_threads_change_nothing(self):
         for threads in ("1", "3"):

@@ -57,10 +57,10 @@ class ReportTest(program.ProgramTest):
     def test_what_is_not_known_is_no_number(self):
         self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", "one")
         self.run_indet("ensemble", "--seeds", "2", "--disks", "12", "--protocols", "cd1", "--samples", "0", "--uniform-seeds",
-                       "0", "-o", "simulated")
+                       "0", "--smallest-distances", "-o", "simulated")
         self.write("p", program.pyramid())
         self.run_indet("import", "--format", "csv", "p", "-o", "p.h5")
-        self.run_indet("ensemble", "p.h5", "-o", "file")
+        self.run_indet("ensemble", "p.h5", "-o", "file", "--smallest-distances")
         for folder in ("one", "simulated", "file"):
             self.run_indet("report", folder)
             page = (self.folder / folder / "report.html").read_text()

@@ -83,13 +83,14 @@ class Vtk(program.ProgramTest):
 
     def test_a_file_of_ranges_is_one_of_vtk(self):
         self.run_indet("simulate", "--protocol", "cd1", "--disks", "12", "--seed", "3", "-o", "p.h5")
-        self.run_indet("analyze", "p.h5", "-o", "r.h5")
+        self.run_indet("analyze", "p.h5", "--smallest-distances", "-o", "r.h5")
         self.run_indet("export", "r.h5", "--format", "vtkhdf")
         self.assertIn("r.vtkhdf", self.files())
         with h5py.File(self.folder / "r.h5") as file:
             contacts = len(file["contacts/R"])
             columns = {name for name, data in file["ranges"].items() if data.shape[0] == contacts}
-            self.assertLessEqual({"R_min", "T_max", "delta_R", "d_T", "outcome", "lower", "unique", "ray"}, columns)
+            self.assertLessEqual({"R_min", "T_max", "delta_R", "d_T", "outcome", "lower", "unique", "ray", "d_T_min", "d_min_lower"},
+                                 columns)
             for name in ("r.h5", "r.vtkhdf"):
                 grid = self.grid(name)
                 self.assert_is_the_packing(grid, file)
@@ -99,7 +100,7 @@ class Vtk(program.ProgramTest):
                 for column in ("R", "T"):
                     np.testing.assert_array_equal(grid.cell_data[column], file["contacts"][column][()], column)
             # In the file of ranges they are not stored twice.
-            for column in columns - {"outcome"}:
+            for column in columns - {"outcome", "d_min_outcome"}:
                 self.assertEqual(file["VTKHDF/CellData"][column], file["ranges"][column], column)
             self.assertEqual(file["VTKHDF/CellData/R"], file["contacts/R"])
 

@@ -59,6 +59,7 @@ void analyze_member(const EnsembleConfig& config, const ProgressCallback& progre
   AnalyzeOptions options;
   options.progress = progress;
   options.solver_states = config.solver_states;
+  options.smallest_distances = config.smallest_distances;
   const Stopwatch watch;
   result.ranges = analyze(result.packing, options);
   result.seconds["analyze"] = watch.seconds();

@@ -27,6 +27,13 @@ void write_counts(Hdf5File& file, const std::string& path, const ExtremalForces&
                         which)});
 }
 
+void write_known_distances(Hdf5File& file, const SmallestDistances& smallest) {
+  if (smallest.outcome.rows() == 0) return;
+  file.set_attribute("/ensemble", "d_min_known", smallest.count(Outcome::kEnclosed));
+  file.set_attribute("/ensemble", "d_min_imprecise", smallest.count(Outcome::kImprecise));
+  file.set_attribute("/ensemble", "d_min_failed", smallest.count(Outcome::kFailed));
+}
+
 void write_ensemble_part(Hdf5File& file, const Member& member, const MemberResult& result) {
   file.make_group("/ensemble");
   file.set_attribute("/ensemble", "member", member.name);
@@ -45,6 +52,7 @@ void write_ensemble_part(Hdf5File& file, const Member& member, const MemberResul
   }
   write_counts(file, "/ensemble/extremal_R", result.extremal, "canonical states");
   if (result.paper_walk) write_paper_walk(file, *result.paper_walk);
+  write_known_distances(file, result.ranges.smallest);
 }
 
 }  // namespace

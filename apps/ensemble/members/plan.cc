@@ -29,6 +29,8 @@ std::string digest(const std::string& text) {
 std::string analysis_toml(const EnsembleConfig& config, std::int64_t seed) {
   std::string text =
       fmt::format("[analysis]\nstates = \"canonical\"\nsolver_states = {}\n", config.solver_states);
+  // Only where they are asked for: the hashes of other ensembles do not know of it.
+  if (config.smallest_distances) text += "smallest_distances = true\n";
   const sim::PerturbOptions& s = config.sampling;
   text += fmt::format("[sampling]\nsamples = {}\n", s.samples);
   if (s.samples > 0) {
@@ -71,13 +73,14 @@ void add_paper_walk(double disks, Member& member) {
 double cost_of(const EnsembleConfig& config, Protocol protocol, double disks) {
   const double size = disks / 95;
   const double analysis = 0.21;
+  const double distances = config.smallest_distances ? 0.42 : 0;
   const bool implicit = config.molecular_dynamics.gamma > 1e4;
   double rest = 0.0034 * config.sampling.samples;
   if (protocol == Protocol::kCd1) rest += 0.5;
   if (protocol == Protocol::kCd2) rest += 0.25;
   if (protocol == Protocol::kMd1) rest += implicit ? 1.2 : 0.7;
   if (protocol == Protocol::kMd2) rest += 0.13;
-  return analysis * std::pow(size, 3) + rest * std::pow(size, 1.5);
+  return (analysis + distances) * std::pow(size, 3) + rest * std::pow(size, 1.5);
 }
 
 /// `number` of its protocol, from 0.

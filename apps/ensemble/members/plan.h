@@ -31,6 +31,7 @@ struct EnsembleConfig {
   std::int64_t paper_walk_seeds = 60;
   bool solver_states =
       true;  ///< Also dR and dT of the states that the solver happens to find, as in the paper.
+  bool smallest_distances = false;  ///< Also dR_min and dT_min (range/smallest_distances.h).
 };
 
 /// One packing of an ensemble.

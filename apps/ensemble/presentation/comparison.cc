@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include "apps/ensemble/presentation/curves.h"
 #include "apps/ensemble/presentation/figure_comparison.h"
+#include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/presentation/verdict.h"
+#include "apps/ensemble/presentation/which_states.h"
 
 namespace indet {
 namespace {
@@ -98,16 +98,14 @@ std::vector<Comparison> compare_with_paper(const EnsembleTables& tables) {
     const Protocols& protocols = md ? kMd : kCd;
     if (!samples.has(protocols)) continue;
     const double paper = md ? 75 : 60;
-    for (const char* component : {"R", "T"}) {
-      for (const auto& [prefix, states] :
-           std::array<std::pair<const char*, const char*>, 3>{{{"paper_", "the paper's walk"},
-                                                               {"solver_", "solver's vertices"},
-                                                               {"", "canonical states"}}}) {
-        const GroupedValues data = samples.of(protocols, fmt::format("{}d_{}", prefix, component));
+    for (const char component : {'R', 'T'}) {
+      for (const WhichStates& choice : kChoicesOfStates) {
+        const GroupedValues data =
+            samples.of(protocols, component == 'R' ? choice.normal : choice.tangential);
         if (!(largest(data) > 0)) continue;
         const Estimate ours = main_maximum(data);
         rows.push_back(
-            {fmt::format("main maximum of d{}, {}, {} (Fig. 8)", component, md ? "MD" : "CD", states),
+            {fmt::format("main maximum of d{}, {}, {} (Fig. 8)", component, md ? "MD" : "CD", choice.name),
              fmt::format("≈ {:g} mg", paper), std::isnan(ours.value) ? "none" : text_of(ours, 1, "mg"),
              std::isnan(ours.value) ? kDiffers : verdict_about(ours, paper)});
       }
@@ -164,6 +162,7 @@ std::vector<Comparison> beyond_the_paper(const EnsembleTables& tables) {
   }
   rows.push_back({"largest residuals", "",
                   fmt::format("{:.1e} of balance and friction, {:.1e} of optimality", primal, dual), ""});
+  add_smallest_distances(tables, rows);
   return rows;
 }
 

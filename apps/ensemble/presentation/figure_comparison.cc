@@ -11,6 +11,7 @@
 
 #include "apps/ensemble/presentation/curves.h"
 #include "apps/ensemble/presentation/verdict.h"
+#include "apps/ensemble/presentation/which_states.h"
 
 namespace indet {
 namespace {
@@ -62,7 +63,7 @@ void add_local_indeterminacy(const Samples& samples, std::vector<Comparison>& ro
 }
 
 /// The share of CD-1 contacts near 0: of the weak, and of the strong ones.
-void add_peak(const Samples& samples, const char* column, const char* name, double width,
+void add_peak(const Samples& samples, const char* column, const std::string& name, double width,
               std::vector<Comparison>& rows) {
   const Estimate weak = fraction_between(samples.split_by_force(Protocol::kCd1, column, false), 0, width);
   const Estimate strong = fraction_between(samples.split_by_force(Protocol::kCd1, column, true), 0, width);
@@ -173,8 +174,8 @@ void add_sliding_contacts(const Samples& samples, std::vector<Comparison>& rows)
 void add_densities(const Samples& samples, std::vector<Comparison>& rows) {
   add_local_indeterminacy(samples, rows);
   add_peak(samples, "delta_R", "δR (Fig. 9)", 5, rows);
-  add_peak(samples, "d_R", "dR, canonical states (Fig. 10)", 10, rows);
-  if (samples.has_paper_walk()) add_peak(samples, "paper_d_R", "dR, the paper's walk (Fig. 10)", 10, rows);
+  for (const WhichStates& choice : {kCanonicalChoice, kWalkChoice, kNearestChoice})
+    add_peak(samples, choice.normal, fmt::format("dR, {} (Fig. 10)", choice.name), 10, rows);
   if (samples.has(kCd) && samples.has(kMd)) add_places(samples, rows);
   add_forces(samples, rows);
 }

@@ -13,7 +13,9 @@
 
 #include "apps/ensemble/presentation/curves.h"
 #include "apps/ensemble/presentation/samples.h"
+#include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
+#include "apps/ensemble/presentation/which_states.h"
 #include "libindet/base/constants.h"
 #include "libindet/base/counted.h"
 #include "libindet/range/analyze.h"
@@ -23,15 +25,6 @@ namespace indet {
 namespace {
 
 using sim::Protocol;
-
-constexpr const char* kCanonical =
-    "where many states attain an optimum, the one of smallest total normal force";
-constexpr const char* kSolver =
-    "where many states attain an optimum, the state that the solver happens to find";
-constexpr const char* kWalk =
-    "where many states attain an optimum, the state in which the walk of Sec. II G ends: each starts from "
-    "the "
-    "first extremal point of the packing, and goes to the first neighbour found that is better";
 
 /// A disk of unit weight in a groove of two walls whose normals make `angle` with the vertical (Fig. 2 of the
 /// paper).
@@ -202,17 +195,6 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// Which of the states that attain an optimum dR and dT are the distances of.
-struct WhichStates {
-  const char* name;
-  const char* which;
-  const char* normal;
-  const char* tangential;
-};
-constexpr WhichStates kCanonicalChoice = {"canonical states", kCanonical, "d_R", "d_T"};
-constexpr WhichStates kSolverChoice = {"solver's vertices", kSolver, "solver_d_R", "solver_d_T"};
-constexpr WhichStates kWalkChoice = {"the paper's walk", kWalk, "paper_d_R", "paper_d_T"};
-
 /// One panel for each choice.
 Figure global(const Samples& samples, const char* id, const char* title,
               const std::vector<WhichStates>& choices) {
@@ -238,31 +220,44 @@ Figure global(const Samples& samples, const char* id, const char* title,
   return figure;
 }
 
-Figure weak_and_strong(const Samples& samples, const char* id, const char* title, const char* normal,
-                       const char* tangential, const char* label, const char* claim, bool logarithmic) {
-  const auto part = [&](const char* column, bool strong) {
-    return samples.split_by_force(Protocol::kCd1, column, strong);
-  };
-  const std::vector<Curve> curves = {
-      {"R < mean, normal", part(normal, false), Mark::kLine, 0, false},
-      {"R < mean, tangential", part(tangential, false), Mark::kDashed, 1, false},
-      {"R > mean, normal", part(normal, true), Mark::kLine, 2, true},
-      {"R > mean, tangential", part(tangential, true), Mark::kDashed, 3, true}};
-  const double high = logarithmic ? largest_of(curves) : end_of_axis(curves);
-  const double width = round_width(high, 40);
-  std::string finding = fmt::format(
-      "Mean R = {:.2f} mg. In the first bin, 0 … {:g} mg: ", samples.mean_force(Protocol::kCd1), width);
-  for (const Curve& c : curves) {
-    const Estimate f = fraction_between(c.data, 0, width);
-    finding += fmt::format("{}: {} of its contacts. ", c.name, text_of(f, 3));
+/// What a panel shows: two columns of the contacts. The title is "" where there is one panel alone.
+struct PanelColumns {
+  const char* title;
+  const char* normal;
+  const char* tangential;
+};
+
+Figure weak_and_strong(const Samples& samples, const char* id, const char* title,
+                       const std::vector<PanelColumns>& panels, const char* label, const char* claim,
+                       bool logarithmic) {
+  Figure figure{.id = id,
+                .title = title,
+                .caption = fmt::format("CD-1 contacts with less and with more than the mean normal force. {}",
+                                       kDensity),
+                .claim = claim,
+                .finding = fmt::format("Mean R = {:.2f} mg. ", samples.mean_force(Protocol::kCd1)),
+                .panels = {}};
+  for (const PanelColumns& columns : panels) {
+    const auto part = [&](const char* column, bool strong) {
+      return samples.split_by_force(Protocol::kCd1, column, strong);
+    };
+    const std::vector<Curve> curves = {
+        {"R < mean, normal", part(columns.normal, false), Mark::kLine, 0, false},
+        {"R < mean, tangential", part(columns.tangential, false), Mark::kDashed, 1, false},
+        {"R > mean, normal", part(columns.normal, true), Mark::kLine, 2, true},
+        {"R > mean, tangential", part(columns.tangential, true), Mark::kDashed, 3, true}};
+    const double high = logarithmic ? largest_of(curves) : end_of_axis(curves);
+    const double width = round_width(high, 40);
+    figure.panels.push_back(panel_of(curves, label, logarithmic, high, width));
+    figure.panels.back().title = columns.title;
+    const std::string panel = *columns.title == '\0' ? "" : fmt::format(", {}", columns.title);
+    figure.finding += fmt::format("In the first bin{}, 0 … {:g} mg: ", panel, width);
+    for (const Curve& c : curves) {
+      const Estimate f = fraction_between(c.data, 0, width);
+      figure.finding += fmt::format("{}: {} of its contacts. ", c.name, text_of(f, 3));
+    }
   }
-  return {.id = id,
-          .title = title,
-          .caption =
-              fmt::format("CD-1 contacts with less and with more than the mean normal force. {}", kDensity),
-          .claim = claim,
-          .finding = finding,
-          .panels = {panel_of(curves, label, logarithmic, high, width)}};
+  return figure;
 }
 
 Figure places(const Samples& samples) {
@@ -349,25 +344,34 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
   figures.push_back(local(samples));
   std::vector<WhichStates> choices = {kCanonicalChoice};
   if (samples.has_paper_walk()) choices.insert(choices.begin(), kWalkChoice);
+  if (samples.has_smallest_distances()) choices.push_back(kNearestChoice);
   figures.push_back(global(samples, "fig08", "Fig. 8: global indeterminacy", choices));
+  if (samples.has_smallest_distances())
+    figures.back().finding += fmt::format("Smallest distances: {}.", known_smallest_distances(tables));
   if (samples.has_solver_states())
     figures.push_back(global(samples, "fig08-solver", "Fig. 8 with the solver's vertices", {kSolverChoice}));
   figures.push_back(weak_and_strong(
-      samples, "fig09", "Fig. 9: local indeterminacy of weak and strong contacts", "delta_R", "delta_T",
-      "δR, δT (mg)", "The peak at 0 is due to weak contacts alone; large indeterminacy to strong ones.",
-      true));
-  figures.push_back(
-      weak_and_strong(samples, "fig10", "Fig. 10: global indeterminacy of weak and strong contacts", "d_R",
-                      "d_T", "dR, dT (mg)",
-                      "The maximum near 0 is due to weak contacts; without them the main one shifts to "
-                      "larger values.",
-                      false));
+      samples, "fig09", "Fig. 9: local indeterminacy of weak and strong contacts",
+      {{"", "delta_R", "delta_T"}}, "δR, δT (mg)",
+      "The peak at 0 is due to weak contacts alone; large indeterminacy to strong ones.", true));
+  std::vector<PanelColumns> panels = {{"", "d_R", "d_T"}};
+  if (samples.has_smallest_distances()) {
+    panels.clear();
+    for (const WhichStates& choice : {kCanonicalChoice, kNearestChoice})
+      panels.push_back({choice.name, choice.normal, choice.tangential});
+  }
+  figures.push_back(weak_and_strong(
+      samples, "fig10", "Fig. 10: global indeterminacy of weak and strong contacts", panels, "dR, dT (mg)",
+      "The maximum near 0 is due to weak contacts; without them the main one shifts to "
+      "larger values.",
+      false));
   figures.push_back(places(samples));
-  figures.push_back(extremal_forces(
-      samples, "fig12", "Fig. 12: normal forces in simulated and extremal states", false, kCanonical));
+  figures.push_back(extremal_forces(samples, "fig12",
+                                    "Fig. 12: normal forces in simulated and extremal states", false,
+                                    kCanonicalChoice.which));
   if (samples.has_solver_states()) {
-    figures.push_back(
-        extremal_forces(samples, "fig12-solver", "Fig. 12 with the solver's vertices", true, kSolver));
+    figures.push_back(extremal_forces(samples, "fig12-solver", "Fig. 12 with the solver's vertices", true,
+                                      kSolverChoice.which));
   }
   figures.push_back(families(samples));
   for (Figure& figure : uniform_figures(tables)) figures.push_back(std::move(figure));

@@ -143,7 +143,7 @@ std::string to_csv(const Figure& figure) {
 
 std::string to_gnuplot(const Figure& figure) {
   const std::size_t panels = std::max<std::size_t>(1, figure.panels.size());
-  const double width = panels > 1 ? 860 : 600;
+  const double width = panels > 1 ? 430 * static_cast<double>(panels) : 600;
   std::string text = fmt::format("# {}\n# gnuplot {}.gp makes {}.svg and {}.pdf from {}.csv.\n", figure.title,
                                  figure.id, figure.id, figure.id, figure.id);
   text += fmt::format("data = '{}.csv'\n", figure.id);

@@ -38,6 +38,7 @@ class Samples {
   bool has(const Protocols& protocols) const;
   bool has_solver_states() const { return has_values("solver_d_R"); }
   bool has_paper_walk() const { return has_values("paper_d_R"); }
+  bool has_smallest_distances() const { return has_values("d_R_min"); }
   /// A column of the contacts of some protocols. Seeds without a value are no group.
   GroupedValues of(const Protocols& protocols, const std::string& column) const;
   /// The same for contacts with more, or less, than the mean normal force of the protocol.

@@ -60,6 +60,12 @@ std::vector<FlatTable::Column> contact_columns() {
       FlatTable::real("solver_d_T", "mg", "d_T with the states that the solver happens to find"));
   columns.push_back(FlatTable::real("paper_d_R", "mg", "d_R with the states where the paper's walk ends"));
   columns.push_back(FlatTable::real("paper_d_T", "mg", "d_T with the states where the paper's walk ends"));
+  columns.push_back(
+      FlatTable::real("d_R_min", "mg", "smallest distance of states of largest and smallest normal force"));
+  columns.push_back(FlatTable::real("d_T_min", "mg",
+                                    "smallest distance of states of largest and smallest tangential force"));
+  columns.push_back(FlatTable::real("d_R_min_lower", "mg", "proven lower bound of d_R_min"));
+  columns.push_back(FlatTable::real("d_T_min_lower", "mg", "proven lower bound of d_T_min"));
   columns.push_back(FlatTable::real("R_star", "1", "place of R in its range"));
   columns.push_back(FlatTable::real("T_star", "1", "place of T in its range"));
   for (const char* name : {"unique_R_min", "unique_R_max", "unique_T_min", "unique_T_max"})
@@ -107,10 +113,17 @@ void add_contacts(const Hdf5File& file, const Packing& packing, std::size_t run,
     for (std::size_t i = 0; i < m; ++i) table.set(column, first + i, values[i] / unit);
   };
   for (const char* name : kObjectives) take(fmt::format("/ranges/{}", name), name, mg);
-  for (const char* name : {"delta_R", "delta_T", "d_R", "d_T", "R_star", "T_star"})
+  for (const char* name : {"delta_R", "delta_T", "d_R", "d_T", "d_R_min", "d_T_min", "R_star", "T_star"})
     take(fmt::format("/ranges/{}", name), name, 1);
   for (const char* name : {"solver_d_R", "solver_d_T", "paper_d_R", "paper_d_T"})
     take(fmt::format("/ensemble/{}", name), name, 1);
+  if (file.has("/ranges/d_min_lower")) {
+    const std::vector<double> lower = file.read_doubles("/ranges/d_min_lower", {m, 2});
+    for (std::size_t i = 0; i < m; ++i) {
+      table.set("d_R_min_lower", first + i, lower[2 * i]);
+      table.set("d_T_min_lower", first + i, lower[2 * i + 1]);
+    }
+  }
   const std::vector<std::uint8_t> unique = file.read_bytes("/ranges/unique", {m, 4});
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t k = 0; k < 4; ++k)

@@ -68,7 +68,7 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
 
 EnsembleContents read_ensemble(const Hdf5File& file) {
   if (!file.has("/table/runs")) throw InputError(fmt::format("{} is not an ensemble", file.path().string()));
-  if (!file.has("/table/runs/member") || !file.has("/table/runs/paper_walks")) {
+  if (!file.has("/table/runs/d_min_known")) {  // the column that was the last to come
     throw InputError(fmt::format(
         "{} was written by an earlier indet; the indet ensemble command that made it writes it anew",
         file.path().string()));

@@ -24,7 +24,7 @@ const std::vector<std::pair<const char*, const char*>> kEquilibrium = {
     {"unbounded", "minima and maxima without limit"}};
 
 /// Attributes of other groups that become columns, mostly of another name.
-constexpr std::array<AttributeColumn, 20> kAttributes = {{
+constexpr std::array<AttributeColumn, 23> kAttributes = {{
     {"raw_sliding", "/simulation", "raw_sliding", "1",
      "sliding contacts of the raw state, as the paper counts them; those that transmit nothing do not count"},
     {"time", "/simulation", "time", "sqrt(r_max/g)", "simulated time"},
@@ -47,13 +47,17 @@ constexpr std::array<AttributeColumn, 20> kAttributes = {{
     {"paper_failures", "/ensemble", "paper_failures", "1",
      "of these, failed ones: other than dim F constraints are active at their end"},
     {"paper_imprecise", "/ensemble", "paper_imprecise", "1", "minima and maxima that they do not prove"},
+    {"d_min_known", "/ensemble", "d_min_known", "1", "smallest distances known to tolerance, of R and T"},
+    {"d_min_imprecise", "/ensemble", "d_min_imprecise", "1", "smallest distances found with doubt"},
+    {"d_min_failed", "/ensemble", "d_min_failed", "1", "smallest distances not found"},
     {"worst_raw_sample_residual", "/sampling", "worst_raw_residual", "mg", "the same before the polish"},
 }};
 
 /// Seconds.
-constexpr std::array<AttributeColumn, 5> kTimings = {{
+constexpr std::array<AttributeColumn, 6> kTimings = {{
     {"simulate", "/provenance/timings", "simulate", "s", "simulation"},
     {"analyze", "/provenance/timings", "analyze", "s", "ranges and extremal states"},
+    {"smallest_distances", "/provenance/timings", "smallest distances", "s", "smallest distances, of these"},
     {"sample", "/provenance/timings", "sample", "s", "perturb and resolve"},
     {"paper_walk", "/provenance/timings", "paper_walk", "s", "the paper's walk"},
     {"sample_uniform", "/provenance/timings", "sample_uniform", "s", "uniform sampling, and its comparison"},
