@@ -6,6 +6,7 @@ Arguments: the indet executable.
 import json
 import pathlib
 import sys
+import tempfile
 
 import h5py
 import numpy as np
@@ -20,10 +21,21 @@ HOW = "this file keeps no extremal states; indet analyze … --extremal-states c
 class States(program.ProgramTest):
     """A pile of 25 disks."""
 
+    @classmethod
+    def setUpClass(cls):
+        """Makes the files that all tests start from, once."""
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        for command in (["simulate", "--protocol", "cd1", "--disks", "25", "--seed", "1", "--quiet", "-o", "p.h5"],
+                        ["analyze", "p.h5", "-o", "all.h5"]):
+            done = program.run([program.INDET, *command], folder.name)
+            assert done.returncode == 0, done.stderr
+        cls.made = {name: (pathlib.Path(folder.name) / name).read_bytes() for name in ("p.h5", "all.h5")}
+
     def setUp(self):
         super().setUp()
-        self.run_indet("simulate", "--protocol", "cd1", "--disks", "25", "--seed", "1", "--quiet", "-o", "p.h5")
-        self.analyze("all.h5")
+        for name, content in self.made.items():
+            (self.folder / name).write_bytes(content)
 
     def analyze(self, output, *options):
         return self.run_indet("analyze", "p.h5", "-o", output, *options).stdout
