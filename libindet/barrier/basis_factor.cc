@@ -53,7 +53,7 @@ BasisFactor::BasisFactor(const BlockStructure& structure) : lu_(std::make_unique
 BasisFactor::~BasisFactor() = default;
 BasisFactor::BasisFactor(BasisFactor&&) noexcept = default;
 
-std::vector<BasisFactor::Dependent> BasisFactor::factor(std::span<const int> basis) {
+std::optional<BasisFactor::Dependent> BasisFactor::factor(std::span<const int> basis) {
   basis_.assign(basis.begin(), basis.end());
   replaced_.clear();
   lu_->clear();
@@ -76,20 +76,19 @@ std::vector<BasisFactor::Dependent> BasisFactor::factor(std::span<const int> bas
   if (lu_->symbolic == nullptr) throw LibraryError("the basis of a state could not be factorised (KLU)");
   lu_->numeric = klu_factor(first.data(), rows.data(), entries.data(), lu_->symbolic, &lu_->common);
   if (lu_->numeric == nullptr) throw LibraryError("the basis of a state could not be factorised (KLU)");
-  std::vector<Dependent> dependent;
+  // Behind the first pivot that vanishes there are no numbers.
   const auto* pivots = static_cast<const double*>(lu_->numeric->Udiag);
   for (int k = 0; k < size; ++k) {
-    if (!(std::abs(pivots[k]) > kLeastPivot))
-      dependent.push_back({lu_->symbolic->Q[k], lu_->numeric->Pnum[k]});
+    if (!(std::abs(pivots[k]) > kLeastPivot)) return Dependent{lu_->symbolic->Q[k], lu_->numeric->Pnum[k]};
   }
-  return dependent;
+  return {};
 }
 
 bool BasisFactor::replace(int p, int column, std::span<const double> along) {
   const double pivot = along[static_cast<std::size_t>(p)];
   basis_[static_cast<std::size_t>(p)] = column;
   const bool is_safe = std::abs(pivot) > kLeastPivot * largest_entry(along);
-  if (!is_safe || replaced_.size() == kMostReplaced) return factor(std::vector<int>(basis_)).empty();
+  if (!is_safe || replaced_.size() == kMostReplaced) return !factor(std::vector<int>(basis_));
   Elementary& next = replaced_.emplace_back();
   next.p = p;
   next.pivot = pivot;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,14 +19,15 @@ class BasisFactor {
   ~BasisFactor();
   BasisFactor(BasisFactor&&) noexcept;
 
-  /// A column that depends on the others of the matrix, and a row without which they are independent.
+  /// A column that depends on others of the matrix, and a row that these leave free.
   struct Dependent {
     int p = 0;
     int row = 0;
   };
   /// Column p of the matrix is column basis[p] of A, or the unit vector of row i if that is unit_column(i).
-  /// Returns the columns that depend on others, as far as double precision tells: none if it is regular.
-  std::vector<Dependent> factor(std::span<const int> basis);
+  /// Returns a column that depends on others, as far as double precision tells: none if the matrix is
+  /// regular.
+  std::optional<Dependent> factor(std::span<const int> basis);
   int unit_column(int row) const { return static_cast<int>(first_entry_.size()) - 1 + row; }
   /// The same with another column of A, a, at place p; `along`: A_B⁻¹ a. Returns as above; if not, the next
   /// call has to be `factor`.

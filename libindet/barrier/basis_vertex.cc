@@ -13,6 +13,8 @@ namespace {
 constexpr int kMostRounds = 4;
 /// A column is well independent of others from this share of the most independent one on.
 constexpr double kIndependent = 1e-3;
+/// With more columns to replace a basis is a poor proposal.
+constexpr std::size_t kMostDependent = 20;
 
 std::size_t at(int column) { return static_cast<std::size_t>(column); }
 
@@ -27,14 +29,17 @@ bool BasisVertex::set_basis(std::span<const double> rank) {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank[at(a)] > rank[at(b)]; });
   std::vector<int> basis(order.begin(), order.begin() + structure_.rows());
   std::sort(basis.begin(), basis.end());
-  const std::vector<BasisFactor::Dependent> dependent = factor_.factor(basis);
-  for (const auto& [p, row] : dependent) basis[at(p)] = factor_.unit_column(row);
-  if (!dependent.empty() && !factor_.factor(basis).empty()) return false;
+  std::vector<int> dependent;  // places
+  for (auto next = factor_.factor(basis); next; next = factor_.factor(basis)) {
+    if (dependent.size() == kMostDependent) return false;
+    basis[at(next->p)] = factor_.unit_column(next->row);
+    dependent.push_back(next->p);
+  }
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t p = 0; p < basis.size(); ++p) {
     if (basis[p] < factor_.unit_column(0)) place_[at(basis[p])] = static_cast<int>(p);
   }
-  for (const auto& [p, row] : dependent) {
+  for (const int p : dependent) {
     if (!take_independent(p, order)) return false;
   }
   closed_.clear();
