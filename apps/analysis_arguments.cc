@@ -190,6 +190,11 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
             "10000 disks)")
         ->type_name("none|sample:K|all")
         ->capture_default_str();
+    command.add_flag(
+        "--smallest-distances", arguments.smallest_distances,
+        "Also find dR_min and dT_min of these contacts: the smallest distance between a state of "
+        "largest and one of smallest R (or T), whichever of several extremal states are stored. "
+        "It takes longer than the ranges themselves");
   }
   command
       .add_option(
@@ -252,6 +257,10 @@ AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const C
     options.contacts = parse_contacts(arguments, contacts);
   }
   options.duals = parse_duals(arguments);
+  if (arguments.smallest_distances && options.estimate)
+    throw UsageError(
+        "--smallest-distances has no effect with --accuracy estimate, which looks for no extremal states");
+  options.smallest_distances = arguments.smallest_distances;
   const bool wants_all = options.contacts.kind == ContactChoice::Kind::kAll && !options.estimate;
   options.reactions = arguments.reactions == "all" || (arguments.reactions == "auto" && wants_all);
   options.formulation = parse_formulation(arguments.formulation);

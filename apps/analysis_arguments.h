@@ -18,9 +18,10 @@ struct AnalysisArguments {
   std::string accuracy = "standard";
   std::string contacts = "all";
   std::uint64_t seed = 1;
-  std::optional<int> calibrate;    ///< of --accuracy estimate
-  std::string reactions = "auto";  ///< of analyze
-  std::string duals = "none";      ///< of analyze
+  std::optional<int> calibrate;     ///< of --accuracy estimate
+  std::string reactions = "auto";   ///< of analyze
+  std::string duals = "none";       ///< of analyze
+  bool smallest_distances = false;  ///< of analyze
   std::string formulation = "auto";
   std::string states = "auto";
   std::string states_of = "all";

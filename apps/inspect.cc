@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/distance_report.h"
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/estimate_report.h"
@@ -122,6 +123,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                            {"max_delta_R", json_number(largest(r.delta_R))},
                            {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
                            {"max_delta_T", json_number(largest(r.delta_T))}});
+    if (has_smallest_distances(r)) json["ranges"]["smallest_distances"] = smallest_distances_to_json(r);
     if (r.calibration >= 0) json["ranges"]["estimates"] = estimates_to_json(r);
     if (r.reactions.count() > 0) json["ranges"]["reactions"] = reactions_to_json(packing, r.reactions);
     if (r.method == Method::kPivotingPaper) json["ranges"]["paper"] = describe_paper_work(r);
@@ -297,6 +299,11 @@ void print_ranges(const ForceRanges& r) {
   if (r.states.rows() > 0) {
     print_line("  dR (mg)", measure(r.d_R));
     print_line("  dT (mg)", measure(r.d_T));
+  }
+  if (has_smallest_distances(r)) {
+    print_line("  dR_min (mg)", measure(r.smallest.d_R));
+    print_line("  dT_min (mg)", measure(r.smallest.d_T));
+    print_line("", describe_smallest_distances(r));
   }
   if (r.status != PolytopeStatus::kEmpty) print_line("  extremal states", describe_kept_states(r));
   if (r.duals.are_kept()) print_line("  duals", describe_duals(r.duals));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/contradiction.h"
+#include "apps/distance_report.h"
 #include "apps/estimate_report.h"
 #include "apps/kept_states.h"
 #include "apps/paper_work.h"
@@ -133,6 +134,7 @@ nlohmann::json report_to_json(const Packing& packing, const ForceRanges& ranges,
                {"mean_d_T", json_number(d_T.mean)},
                {"max_d_T", json_number(d_T.max)},
                {"seconds", ranges.seconds}});
+  if (has_smallest_distances(ranges)) json["smallest_distances"] = smallest_distances_to_json(ranges);
   if (ranges.calibration >= 0) json["estimates"] = estimates_to_json(ranges);
   if (ranges.choice == ContactChoice::Kind::kSample) json["sample"] = sample_to_json(ranges);
   if (ranges.reactions.count() > 0) json["reactions"] = reactions_to_json(packing, ranges.reactions);
@@ -244,6 +246,7 @@ void print_quality(const ForceRanges& ranges) {
     fmt::print("found by {}\n", describe_method(ranges));
   }
   fmt::print("{}\n", describe_kept_states(ranges));
+  if (has_smallest_distances(ranges)) fmt::print("{}\n", describe_smallest_distances(ranges));
   if (ranges.duals.are_kept()) fmt::print("{}\n", describe_duals(ranges.duals));
 }
 
@@ -278,9 +281,10 @@ void print_report(const Packing& packing, const ForceRanges& ranges, const std::
     fmt::print("asked for: {} of {}\n", ranges.requested, counted(packing.contact_count(), "contact"));
   print_quality(ranges);
   if (ranges.method == Method::kPivotingPaper) print_paper_work(ranges.paper);
-  const auto line = [](const char* name, const Eigen::VectorXd& values) {
+  const bool has_smallest = has_smallest_distances(ranges);
+  const auto line = [&](const char* name, const Eigen::VectorXd& values) {
     const Statistics s = statistics(values);
-    fmt::print("  {}   mean {:>9.4g}   max {:>9.4g}\n", name, s.mean, s.max);
+    fmt::print("  {:<{}}   mean {:>9.4g}   max {:>9.4g}\n", name, has_smallest ? 6 : 2, s.mean, s.max);
   };
   if (ranges.calibration >= 0) {
     print_estimates(packing, ranges);
@@ -291,6 +295,10 @@ void print_report(const Packing& packing, const ForceRanges& ranges, const std::
     if (ranges.states.rows() > 0) {
       line("dR", ranges.d_R);
       line("dT", ranges.d_T);
+    }
+    if (has_smallest) {
+      line("dR_min", ranges.smallest.d_R);
+      line("dT_min", ranges.smallest.d_T);
     }
     if (ranges.choice == ContactChoice::Kind::kSample) print_sample(packing, ranges);
     print_extremes(packing, ranges);

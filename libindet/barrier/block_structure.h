@@ -5,33 +5,24 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/barrier/block_system.h"
 #include "libindet/equilibrium/equilibrium_problem.h"
 
 namespace indet::barrier {
 
-/// One row more, which cuts an unbounded set off: Σ x over `columns` + slack = total. Its slack is the last
-/// column. No limit if there are no columns.
-struct Limit {
-  std::vector<int> columns;  ///< ascending
-  double total = 0;
-};
-
-/// The sparsity of A and of the Cholesky factor of A D Aᵀ, D diagonal, for an equilibrium problem in edge
-/// strengths, A x = b, x ≥ 0 (EquilibriumProblem::edge_matrix). Found once a packing; what is computed with
-/// it works on arrays of this order.
+/// The sparsity of A and of the Cholesky factor of A D Aᵀ, D diagonal, for a system in blocks (BlockSystem).
+/// Found once a packing; what is computed with it works on arrays of this order.
 ///
-/// Rows of A are taken together in *nodes*: the up to three equations of a disk, those of a loaded wall, of
-/// the cell, the bounds of one contact. Columns are taken together in *groups*: the one or two edges of a
-/// contact; a slack is a group of its own. A group touches few nodes (two disks, or a disk and a wall;
-/// besides the cell and its own bounds), and two nodes share a block of A D Aᵀ where a group touches both:
-/// the graph of the packing. Walls, the cell and a limit, which touch many disks, are eliminated last, so
-/// that they border the factor and fill nothing else; bounds of contacts, whose two disks share a block
-/// anyway, widen nothing.
+/// Two nodes share a block of A D Aᵀ where a group touches both: the graph of the packing. Walls, the cell
+/// and a limit, which touch many disks, are eliminated last, so that they border the factor and fill nothing
+/// else; bounds of contacts, whose two disks share a block anyway, widen nothing.
 class BlockStructure {
  public:
-  /// `rows`: the equations to keep, ascending; they have to be independent for A D Aᵀ to be definite. The
+  /// The equations of the nodes have to be independent, but for elastic ones, for A D Aᵀ to be definite. The
   /// others play no part in anything that is computed here: that they follow from these, with their loads, is
   /// for the caller to know. (A disk on an incline has a centre without its third equation, and is empty.)
+  explicit BlockStructure(const BlockSystem& system);
+  /// Of block_system(problem, rows, limit).
   BlockStructure(const EquilibriumProblem& problem, std::span<const int> rows, Limit limit = {});
 
   /// A node that a group touches: A has the block of its `rows` and the group's columns there, column by
@@ -65,7 +56,10 @@ class BlockStructure {
   bool has_limit() const { return !limit_.columns.empty(); }
   /// The place of the limit's row; −1 if there is none.
   int limit_place() const { return limit_place_; }
-  /// The equation of the problem at a place (−1: the limit), and the place of an equation, −1 if it was left
+  /// Whether the rows of a node are elastic, and the places of all rows that are.
+  bool is_elastic(int node) const { return is_elastic_[static_cast<std::size_t>(node)]; }
+  const std::vector<int>& elastic_rows() const { return elastic_rows_; }
+  /// The equation of the system at a place (−1: the limit), and the place of an equation, −1 if it was left
   /// out.
   const std::vector<int>& equation_of_place() const { return equation_of_place_; }
   const std::vector<int>& place_of_equation() const { return place_of_equation_; }
@@ -99,10 +93,8 @@ class BlockStructure {
   int row_length(int node) const { return row_length_[static_cast<std::size_t>(node)]; }
 
  private:
-  void collect_nodes(const EquilibriumProblem& problem, std::span<const int> rows);
-  void add_limit();
-  void collect_groups(const EquilibriumProblem& problem);
-  void order_nodes();
+  void collect_groups(const BlockSystem& system);
+  void order_nodes(const BlockSystem& system);
   void find_fill(const std::vector<std::vector<int>>& neighbours);
   void list_products();
   int block_of(int row_node, int column_node) const;
@@ -111,7 +103,8 @@ class BlockStructure {
   int limit_place_ = -1;
   int columns_ = 0;
   std::vector<int> first_row_, equation_of_place_, place_of_equation_;
-  std::vector<bool> is_last_;  ///< of each node
+  std::vector<bool> is_elastic_;
+  std::vector<int> elastic_rows_;
   std::vector<double> load_;
   std::vector<Group> groups_;
   std::vector<Touch> touches_;

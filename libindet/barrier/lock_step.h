@@ -41,6 +41,8 @@ struct Iterate {
 ///
 ///   A x = b,   Aᵀ y + s = c,   x_k s_k = μ → 0,   x, s > 0
 ///
+/// Rows may be elastic (BlockSystem): A x + g y = b there, which adds |b − A x|²/2g to what is minimised.
+///
 /// Eight objectives go in step, one a lane of vector registers: all have the same A, so the factorisation of
 /// A X S⁻¹ Aᵀ is the same sequence of operations for each. A lane that is done takes the next objective, so
 /// the lanes stay busy whatever the number of iterations. Each starts at the analytic centre (x_c, y_c): with
@@ -63,6 +65,7 @@ struct LockStepCalls {
   std::function<Objective(std::size_t)> objective;
   std::function<void(const Iterate&)> finish;
   std::function<bool()> keep_on;
+  std::function<double(std::size_t)> give = {};  ///< g > 0 of an objective; where rows are elastic
 };
 void minimise_in_lock_step(const BlockStructure& structure, const AnalyticCentre& centre,
                            const LockStepOptions& options, const LockStepCalls& calls);

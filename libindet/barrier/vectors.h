@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "libindet/base/constants.h"
 
 namespace indet::barrier {
+
+inline std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Precondition: of one length.
 inline double dot(std::span<const double> a, std::span<const double> b) {

@@ -62,6 +62,8 @@ class VerifiedEquations {
   bool is_proven() const { return sigma_ > 0 && is_bounded_; }
   /// σ; 0 where nothing is proven.
   double smallest_singular_value() const { return sigma_; }
+  /// Some solution is within x_c times this of x_c.
+  double centre_shift() const { return centre_shift_; }
   /// X, one a column.
   const std::vector<double>& strength_bounds() const { return strength_; }
 
@@ -73,6 +75,8 @@ class VerifiedEquations {
                      const NearestSolution& nearest) const;
   /// Bounds of the least value of the objective. `x`: repaired. They hold whatever x and y are.
   ValueBounds enclose(const Objective& objective, std::span<const double> x, std::span<const double> y) const;
+  /// The lower one of these bounds, of any y.
+  double lower_bound(const Objective& objective, std::span<const double> y) const;
   /// Multipliers y that make ‖X (c − Aᵀ y)‖₂ least, from one solution: (A X² Aᵀ) y = A X² cᵀ.
   std::vector<double> nearest_multipliers(const Objective& objective) const;
   /// Bounds of c·x over the whole set, which hold whatever y is: duality for c with y and for −c with −y.
@@ -86,7 +90,6 @@ class VerifiedEquations {
   void bound_strengths();
   /// η of x.
   double shift_of(std::span<const double> x) const;
-  double lower_bound(const Objective& objective, std::span<const double> y) const;
   double lower_bound_beyond_limit(const Objective& objective, std::vector<double> y, double resting) const;
   /// Sets y to 0 in all rows that the column enters. Returns whether it was not.
   bool stop_motion(std::size_t column, std::vector<double>& y) const;

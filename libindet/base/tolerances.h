@@ -292,6 +292,10 @@ inline constexpr double kProbabilityAgreement = 1e-7;
 /// Room for rounding in inequalities between stored numbers, relative to the larger of them.
 inline constexpr double kRoundingRoom = 1e-9;
 
+/// A smallest distance of states that least squares find again is the stored one to this, relative to it (at
+/// least 1 mg): twice kDistanceGap.
+inline constexpr double kDistanceAgain = 2e-3;
+
 /// A number that is a count but for rounding (a percentage of a known number of states) is whole to this.
 inline constexpr double kWholeCount = 1e-6;
 
@@ -456,6 +460,13 @@ inline constexpr double kMendedState = 1e-6;
 /// Rounding makes 1e-16 … 1e-15. Between them nothing is decided.
 inline constexpr double kRestingPower = 1e-13;
 inline constexpr double kOpeningPower = 1e-9;
+
+/// Two states count as states of largest and smallest value of a force if, together, they are proven to miss
+/// these values by up to this, relative to the larger of them (at least 1 mg). The smallest distance of two
+/// such states is known if it and its proven lower bound are up to the second apart, relative to it (at least
+/// 1 mg). Typical are 1e-9 and 1e-5.
+inline constexpr double kFaceShortage = 1e-6;
+inline constexpr double kDistanceGap = 1e-3;
 
 /// What is left of Aᵀ y + s = c becomes part of s if it is smaller than this share of it.
 inline constexpr double kAbsorbedDualResidual = 1e-3;

@@ -256,12 +256,21 @@ void check_estimates(const Hdf5File& file, const ForceRanges& ranges) {
     fail(file, "/ranges@calibration", "does not go with the estimates");
 }
 
+/// Of smallest distances all tables are there, or none.
+void check_smallest(const Hdf5File& file, const SmallestDistances& smallest) {
+  const Eigen::Index rows = smallest.outcome.rows();
+  if (smallest.d_R.rows() != rows || smallest.d_T.rows() != rows || smallest.lower.rows() != rows ||
+      smallest.shortage.rows() != rows)
+    fail(file, "/ranges/d_min_outcome", "does not go with d_R_min, d_T_min, d_min_lower, d_min_shortage");
+}
+
 /// Numbers of contacts, and what they tell of a sample.
 void check_request(const Hdf5File& file, const ForceRanges& ranges) {
   if (ranges.requested < 0 || ranges.requested > ranges.value.rows())
     fail(file, "/ranges@requested", fmt::format("{} of {} contacts", ranges.requested, ranges.value.rows()));
   check_draw(file, ranges);
   check_estimates(file, ranges);
+  check_smallest(file, ranges.smallest);
   if (ranges.choice != ContactChoice::Kind::kSample) return;
   if (file.double_attribute("/ranges", "confidence") != kConfidence)
     fail(file, "/ranges@confidence", fmt::format("is not {}", kConfidence));

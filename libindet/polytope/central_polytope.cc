@@ -47,9 +47,9 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
 
 }  // namespace
 
-CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> rows,
+CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> independent,
                                  barrier::Limit limit)
-    : structure(problem, rows, std::move(limit)) {
+    : rows(independent.begin(), independent.end()), structure(problem, rows, std::move(limit)) {
   barrier::BlockCholesky cholesky(structure);
   centre = barrier::find_analytic_centre(structure, cholesky);
   if (centre.found) equations.emplace(problem, structure, centre);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "libindet/barrier/analytic_centre.h"
 #include "libindet/barrier/block_structure.h"
@@ -26,6 +27,7 @@ struct CentralPolytope {
   /// interior.
   bool is_proven() const { return equations && equations->is_proven(); }
 
+  std::vector<int> rows;  ///< as given
   barrier::BlockStructure structure;
   barrier::AnalyticCentre centre;
   std::optional<barrier::VerifiedEquations> equations;

@@ -17,6 +17,7 @@
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/barrier_ranges.h"
 #include "libindet/range/central_states.h"
+#include "libindet/range/distance_search.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/estimated_ranges.h"
 #include "libindet/range/extrema.h"
@@ -162,6 +163,15 @@ Wanted choose_contacts(const ContactChoice& choice, const ForcePolytope& polytop
   return wanted;
 }
 
+void add_smallest_distances(ForcePolytope& polytope, const std::vector<int>& contacts,
+                            const AnalyzeOptions& options, Stopwatch& stopwatch, ForceRanges& ranges) {
+  if (!options.smallest_distances) return;
+  if (!polytope.central) add_centre(polytope);
+  ranges.smallest =
+      find_smallest_distances(polytope, ranges, contacts, interval_options(options, "smallest distances"));
+  stopwatch.mark("smallest distances");
+}
+
 /// Says why there are no estimates of a polytope that is not empty.
 void require_centre(const ForcePolytope& polytope) {
   if (polytope.doubtful)
@@ -265,6 +275,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
       ranges.reactions = std::move(found.reactions);
       ranges.duals = std::move(found.duals);
       stopwatch.mark("measures");
+      add_smallest_distances(polytope, contacts, options, stopwatch, ranges);
       ranges.seconds = std::move(seconds);
       return ranges;
     }
@@ -292,6 +303,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);
   stopwatch.mark("measures");
+  add_smallest_distances(polytope, contacts, options, stopwatch, ranges);
   ranges.seconds = std::move(seconds);
   return ranges;
 }

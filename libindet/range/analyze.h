@@ -31,7 +31,8 @@ struct AnalyzeOptions {
   PaperOptions paper;  ///< of kPivotingPaper
   LpOptions lp;
   ContactChoice contacts;
-  bool reactions = true;  ///< of walls and fixed disks: find their ranges, too
+  bool reactions = true;            ///< of walls and fixed disks: find their ranges, too
+  bool smallest_distances = false;  ///< of the contacts whose ranges are found (distance_search.h)
   /// Estimates in place of ranges, by kBarrier, of all contacts: `contacts` and `states` do not matter.
   std::optional<EstimateOptions> estimate;
   /// Of kBarrier: which proofs of values the result keeps. Precondition: no states are kept, for these prove

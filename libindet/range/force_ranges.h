@@ -15,6 +15,7 @@
 #include "libindet/range/outcome.h"
 #include "libindet/range/problem_summary.h"
 #include "libindet/range/reactions.h"
+#include "libindet/range/smallest_distances.h"
 
 namespace indet {
 
@@ -38,8 +39,9 @@ struct ForceRanges : ProblemSummary,
   std::map<std::string, double> seconds;  ///< By stage.
   /// Where asked for (AnalyzeOptions::solver_states); no field of files.
   std::optional<SolverStates> solver_states;
-  Reactions reactions = {};  ///< Of walls and fixed disks; in files /reactions.
-  Duals duals = {};          ///< Of --method barrier, where asked for; in files /duals.
+  Reactions reactions = {};         ///< Of walls and fixed disks; in files /reactions.
+  Duals duals = {};                 ///< Of --method barrier, where asked for; in files /duals.
+  SmallestDistances smallest = {};  ///< Where asked for (AnalyzeOptions::smallest_distances).
 };
 
 /// Certifies and measures what was found, and puts all of it together.

@@ -31,7 +31,8 @@ void run_in_lock_step(const barrier::BlockStructure& structure, const barrier::A
                                             if (is_calling_thread && run.keep_on && !run.keep_on())
                                               stopped = true;
                                             return !stopped;
-                                          }});
+                                          },
+                                      .give = run.give});
     } catch (...) {
       if (!stopped.exchange(true)) failure = std::current_exception();
     }

@@ -19,6 +19,7 @@ struct LockStepRun {
   std::function<void(const barrier::Iterate&)> finish;  ///< on any of the threads
   /// Asked on the calling thread once an iteration; if it says no the run ends with Interrupted.
   std::function<bool()> keep_on;
+  std::function<double(std::size_t)> give = {};  ///< where rows are elastic (LockStepCalls)
 };
 
 /// Runs the objectives of these numbers. Throws Interrupted, and what `finish` throws.

@@ -261,6 +261,26 @@ void visit_extremal(Part& r, Visit& visit) {
 }
 
 template <class Part, class Visit>
+void visit_smallest(Part& r, Visit& visit) {
+  const auto field = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
+                         Extent columns, auto& value) {
+    visit(Field{"/ranges", name, unit, meaning, source, Extent::kContacts, columns, Presence::kWhereRows},
+          value);
+  };
+  field("d_R_min", "mg", "smallest distance of states of largest and smallest normal force, NaN if not known",
+        FieldSource::kEnclosure, Extent::kOne, r.d_R);
+  field("d_T_min", "mg",
+        "smallest distance of states of largest and smallest tangential force, NaN if not known",
+        FieldSource::kEnclosure, Extent::kOne, r.d_T);
+  field("d_min_lower", "mg", "proven lower bound of the smallest distance, for R and T",
+        FieldSource::kEnclosure, Extent::kDirections, r.lower);
+  field("d_min_shortage", "mg", "by how much the values of the two states miss the extremes at most",
+        FieldSource::kRounding, Extent::kDirections, r.shortage);
+  field("d_min_outcome", "1", "what became of d_R_min, d_T_min", FieldSource::kAnswer, Extent::kDirections,
+        r.outcome);
+}
+
+template <class Part, class Visit>
 void visit_measures(Part& r, Visit& visit) {
   const auto column = [&](const char* name, const char* unit, const char* meaning, FieldSource source,
                           auto& value) {
@@ -278,6 +298,7 @@ void visit_measures(Part& r, Visit& visit) {
          FieldSource::kAnswer, r.R_star);
   column("T_star", "1", "place of the simulated tangential force in its range, NaN if unknown",
          FieldSource::kAnswer, r.T_star);
+  visit_smallest(r.smallest, visit);
   visit(Field{"/extremal", "norm", "force", "Euclidean norm of the state", FieldSource::kState,
               Extent::kStates},
         r.norm);

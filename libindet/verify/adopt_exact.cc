@@ -140,6 +140,7 @@ ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const F
   note_states(extrema.states, extrema.vertex, StateChecker(packing), extrema);
   ForceRanges result = assemble(packing, ranges, ranges, extrema, enclosures);
   result.seconds = ranges.seconds;
+  result.smallest = ranges.smallest;
   result.reactions = adopt_reactions(check.reactions, ranges.reactions, enclosures.proven);
   return result;
 }

@@ -30,6 +30,7 @@ class RebuiltProblem {
   int contact_count() const { return packing_.contact_count(); }
   bool has_friction(int contact) const { return packing_[ContactId(contact)].mu > 0; }
   const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }  ///< c [15]
+  const Eigen::VectorXd& wrench() const { return wrench_; }              ///< w: cF = −w
   const std::vector<int>& held() const { return held_; }  ///< components of forces that are given
   double force_unit() const { return force_unit_; }
   /// The unit that tolerances are meant in, in force units (Packing::internal_force_unit).

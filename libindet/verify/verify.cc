@@ -11,6 +11,7 @@
 #include "libindet/base/tolerances.h"
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/comparisons.h"
+#include "libindet/verify/distances_check.h"
 #include "libindet/verify/draws_check.h"
 #include "libindet/verify/duals_check.h"
 #include "libindet/verify/enclosed_check.h"
@@ -42,6 +43,7 @@ class Verifier {
     check_counts();
     check_enclosed(packing_, ranges_, progress_, compare_);
     if (ranges_.duals.are_kept()) check_duals(ranges_, problem_, compare_);
+    check_smallest_distances(packing_, ranges_, problem_, compare_);
     check_hull();
     name_the_rest();
     check_reactions(packing_, ranges_, problem_, compare_);

@@ -106,7 +106,7 @@ class VtkVerifier {
   void check_links() {
     for (const std::string& path : file_.datasets("/VTKHDF/CellData")) {
       const std::string name = path.substr(path.rfind('/') + 1);
-      if (name == "outcome") continue;  // a copy: see check_outcomes
+      if (name == "outcome" || name == "d_min_outcome") continue;  // a copy: see check_outcomes
       const std::string source = file_.has("/contacts/" + name) ? "/contacts/" + name : "/ranges/" + name;
       compare_.require(file_.has(source) && file_.is_same(path, source), "CellData/{}: it is not {}", name,
                        source);
@@ -114,12 +114,18 @@ class VtkVerifier {
   }
 
   void check_outcomes() {
-    const auto stored = file_.read_bytes(kGroup + "CellData/outcome", {cells(), 4});
-    for (Eigen::Index i = 0; i < ranges_.outcome.size(); ++i) {
-      const auto right = static_cast<int>(ranges_.outcome.data()[i]);
-      compare_.require(stored[static_cast<std::size_t>(i)] == right,
-                       "CellData/outcome: {} is stored, {} is right", stored[static_cast<std::size_t>(i)],
-                       right);
+    check_outcomes("outcome", ranges_.outcome);
+    if (ranges_.smallest.outcome.size() > 0) check_outcomes("d_min_outcome", ranges_.smallest.outcome);
+  }
+
+  template <class Table>
+  void check_outcomes(const std::string& name, const Table& outcomes) {
+    const auto stored =
+        file_.read_bytes(kGroup + "CellData/" + name, {cells(), static_cast<std::size_t>(outcomes.cols())});
+    for (Eigen::Index i = 0; i < outcomes.size(); ++i) {
+      const auto right = static_cast<int>(outcomes.data()[i]);
+      compare_.require(stored[static_cast<std::size_t>(i)] == right, "CellData/{}: {} is stored, {} is right",
+                       name, stored[static_cast<std::size_t>(i)], right);
     }
   }
 

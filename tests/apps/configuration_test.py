@@ -78,7 +78,7 @@ class Configuration(program.ProgramTest):
         self.assertEqual(table["threads"], 1)
         self.assertEqual(table["analyze"], {"method": "auto", "accuracy": "standard", "contacts": "all", "duals": "none", "reactions": "auto", "seed": 1,
                                             "formulation": "edge", "extremal-states": "auto", "states-of": "all",
-                                            "output": "r.h5"})
+                                            "smallest-distances": False, "output": "r.h5"})
         self.check_reads_back("r.h5", "provenance", "analyze", "p.h5")
 
     def test_the_resolved_configuration_of_a_scene_without_defaults_reads_back(self):

@@ -181,6 +181,12 @@ class OfRanges(Tampered):
                                    "mean_delta_T", "band_delta_T"})
         self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE, {"ranges@sample_seed"})
 
+    def test_smallest_distances_with_a_forged_digest(self):
+        self.make("analyze", "q.h5", "--smallest-distances")
+        # Small changes of what is known to a tolerance; apps.distances has large ones.
+        self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE,
+                         places("ranges/", "d_R_min d_T_min d_min_shortage"))
+
     def test_estimates_with_a_forged_digest(self):
         self.make("analyze", "q.h5", "--accuracy", "estimate", "--calibrate", "2", "--seed", "4")
         self.assertIn(("ranges/delta_R_high", None), self.places)

@@ -265,6 +265,18 @@ TEST(RangesFile, DualsThatAreNotWholeAreRefused) {
   });
 }
 
+TEST(RangesFile, SmallestDistancesAreAllThereOrNone) {
+  const test::TemporaryFolder folder;
+  ForceRanges ranges = test::sample_ranges();
+  ranges.smallest = test::sample_distances();
+  write_ranges(folder / "r.h5", test::sample_packing(), ranges, {});
+  EXPECT_TRUE(test::same_bytes(read_ranges(folder / "r.h5"), ranges));
+  ranges.smallest.d_T.resize(0);
+  write_ranges(folder / "r.h5", test::sample_packing(), ranges, {});
+  EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },
+              ThrowsMessage<InputError>(HasSubstr("/ranges/d_min_outcome: does not go with d_R_min")));
+}
+
 TEST(RangesFile, AFileWithoutRangesSaysSo) {
   const test::TemporaryFolder folder;
   write_packing(folder / "p.h5", test::sample_packing(), {});

@@ -48,6 +48,21 @@ inline Packing sample_packing() {
   return packing;
 }
 
+/// Smallest distances of the packing above, of numbers that mean nothing.
+inline SmallestDistances sample_distances() {
+  SmallestDistances smallest;
+  smallest.d_R = Eigen::VectorXd::LinSpaced(5, 1, 5);
+  smallest.d_T = Eigen::VectorXd::LinSpaced(5, 11, 15);
+  for (auto* table : {&smallest.lower, &smallest.shortage}) table->resize(5, 2);
+  for (int i = 0; i < 5; ++i) {
+    smallest.lower.row(i) << 0.5 + i, 10.5 + i;
+    smallest.shortage.row(i) << 1e-9 * i, 2e-9 * i;
+  }
+  smallest.outcome.setConstant(5, 2, Outcome::kEnclosed);
+  smallest.outcome(3, 1) = Outcome::kImprecise;
+  return smallest;
+}
+
 /// Reactions of the packing above, of numbers that mean nothing: P = 4 sums, S = 3 states, U = 1 ray.
 /// Of 2 of the 5 contacts of 3 disks and 2 walls.
 inline Duals sample_duals() {

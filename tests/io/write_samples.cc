@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
     rare.reason = "a reason";
     rare.gap = 1e-6;
     rare.enclosed = 3;
+    rare.smallest = indet::test::sample_distances();
     rare.draws = 4;
     rare.weight.setLinSpaced(5, 3, 7);
     rare.drawn.setZero(5);

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "libindet/base/tolerances.h"
 #include "libindet/range/result_fields.h"
 #include "tests/support/oracle.h"
 
@@ -160,6 +161,15 @@ AssertionResult overlapping_enclosures(const ForceRanges& a, const ForceRanges& 
   for (Eigen::Index k = 0; k < low.size(); ++k) {
     if (low.data()[k] > high.data()[k] + tolerance * std::max(1.0, std::abs(high.data()[k])))
       return AssertionFailure() << "the enclosures of reaction " << k / 2 << " do not overlap";
+  }
+  for (Eigen::Index i = 0; i < std::min(a.smallest.lower.rows(), b.smallest.lower.rows()); ++i) {
+    for (const int component : {0, 1}) {
+      const double least = std::max(a.smallest.lower(i, component), b.smallest.lower(i, component));
+      const double most = std::min(a.smallest.of(component)[i], b.smallest.of(component)[i]);
+      // Distances are those of states that are a little off the extremes.
+      if (least > most + indet::tolerance::kDistanceGap * std::max(1.0, most))
+        return AssertionFailure() << "the smallest distances of contact " << i << " do not overlap";
+    }
   }
   return AssertionSuccess();
 }
