@@ -5,25 +5,26 @@
                          [--packings R.h5 ...] [--repetitions 2000] [--out draws.tsv] [--rules [--check SEEDS]]
 
 Packings are made in DIR, or taken as they are (--packings: any file with contacts), and analyzed with --method barrier: all
-values once, and a sample once, whose file has the weights and widths. From these the draws are repeated here. A row is a
-packing, a quantity and a number of draws K: the error (root mean square, over the mean) of the mean of equally likely contacts
-and of drawn ones, the percentage of repetitions whose interval covers the mean, the mean half-width of that interval over the
-mean, the band of the distribution function, the largest distance of that function in 95 of 100 repetitions and the percentage
-that the band covers (both over 400 values of v, and 300 repetitions), and the largest distance of the distribution of the
-drawn values themselves, weighted by 1/p.
+values once, a sample once, whose file has the weights and widths, and estimated once for the predictions. From these the draws are
+repeated here. A row is a packing, a quantity and a number of draws K: the error (root mean square, over the mean) of the mean of
+equally likely contacts, of that of z = y/(M p) over drawn ones, and of what the program does, from 8 draws on the regression of z
+on predictions; of the latter the percentage of repetitions whose interval covers the mean and the mean half-width of that interval
+over the mean; the band of the distribution function, the largest distance of that function in 95 of 100 repetitions and the
+percentage that the band covers (both over 400 values of v, and 300 repetitions), and the largest distance of the distribution of
+the drawn values themselves, weighted by 1/p.
 
 --rules: other rules of drawing and other estimators beside those of the program, from the same values. A row is a packing, a
 quantity and a number of draws; `worth` is the variance of y over that of y/(M p), which is how many times larger a sample of
 equally likely contacts, drawn with replacement, would have to be for the same error, and `correlation` that of y with its width.
 Then, of each of RULES, the error (root mean square, over the mean) and the percentage of intervals that cover:
 
-    program       p of the program, mean of z = y/(M p), Student's interval
+    mean          p of the program, mean of z = y/(M p), Student's interval
     width_R       p by the widths of R alone, p ∝ 0.02 + σ_R/mean
     predicted     p ∝ 0.02 + the sum of both predictions of --accuracy estimate --calibrate 0, each over its mean
     systematic    p of the program, systematic without replacement (Madow, Ann. Math. Stat. 20, 333 (1949)) along the list sorted
                   by σ_T/σ_R relative to their means; variance from the differences of neighbours
     by_width      p of the program, z regressed on σ/(M p), whose mean over all contacts is known
-    by_prediction p of the program, z regressed on the prediction over M p
+    by_prediction p of the program, z regressed on the prediction over M p: what the program does from 8 draws on
     both          p of `predicted`, z regressed on the prediction over M p
 
 Intervals of the regressions are those of Student for K - 2 degrees, with residuals over 1 - leverage (HC3).
@@ -39,10 +40,11 @@ import h5py
 import numpy as np
 from scipy.stats import t as student
 
-COLUMNS = ["packing", "contacts", "quantity", "draws", "simple_error", "error", "interval_covers", "half_width", "band",
-           "distance_95", "band_covers", "weighted_distance_95"]
+COLUMNS = ["packing", "contacts", "quantity", "draws", "simple_error", "mean_error", "error", "interval_covers", "half_width",
+           "band", "distance_95", "band_covers", "weighted_distance_95"]
 SIZES = [6, 10, 20, 40, 80, 160]
-RULES = ["program", "width_R", "predicted", "systematic", "by_width", "by_prediction", "both"]
+FEWEST_FOR_REGRESSION = 8  # kFewestForRegression
+RULES = ["mean", "width_R", "predicted", "systematic", "by_width", "by_prediction", "both"]
 RULE_COLUMNS = ["packing", "contacts", "quantity", "draws", "correlation", "worth", "simple_error",
                 *(f"{what}_{rule}" for rule in RULES for what in ("error", "covers"))]
 RULE_SIZES = [6, 10, 20, 40, 100]
@@ -104,6 +106,7 @@ def weighted_distances(delta, probability, draws):
 
 def rows(arguments, name, path):
     delta, width, weight = values_and_weights(arguments, name, path)
+    predicted = predictions(arguments, name, path)
     count = len(weight)
     probability = weight / weight.sum()
     random = np.random.default_rng(1)
@@ -113,14 +116,14 @@ def rows(arguments, name, path):
         draws = random.choice(count, (arguments.repetitions, size), p=probability)
         simple = np.argsort(random.random((arguments.repetitions, count)), axis=1)[:, :size]
         for quantity, y in delta.items():
-            z = y[draws] / (count * probability[draws])
-            mean = z.mean(axis=1)
-            reach = student.ppf(0.975, size - 1) * z.std(axis=1, ddof=1) / np.sqrt(size)
+            mean, reach = by_program(y, predicted[quantity], probability, draws)
+            of_draws, _ = by_draws(y, probability, draws)
             far = np.array(list(distances(y, width[quantity], draws[:300])))
             weighted = list(weighted_distances(y, probability, draws[:300]))
             band = arguments.band[0] + arguments.band[1] / np.sqrt(size)
             yield [name, count, quantity, size,
                    f"{np.sqrt(np.mean((y[simple].mean(axis=1) - y.mean()) ** 2)) / y.mean():.4f}",
+                   f"{np.sqrt(np.mean((of_draws - y.mean()) ** 2)) / y.mean():.4f}",
                    f"{np.sqrt(np.mean((mean - y.mean()) ** 2)) / y.mean():.4f}",
                    f"{100 * np.mean(np.abs(mean - y.mean()) <= reach):.1f}", f"{reach.mean() / y.mean():.4f}",
                    f"{band:.3f}", f"{np.quantile(far, 0.95):.3f}", f"{100 * np.mean(far <= band):.1f}",
@@ -158,6 +161,13 @@ def by_regression(y, x, probability, draws):
     share = 1 / size + missing * away / squares
     error = np.sqrt(((share * residual / (1 - leverage)) ** 2).sum(axis=1))
     return z.mean(axis=1) + (slope * missing)[:, 0], student.ppf(0.975, size - 2) * error
+
+
+def by_program(y, x, probability, draws):
+    """What the program does."""
+    if draws.shape[1] < FEWEST_FOR_REGRESSION:
+        return by_draws(y, probability, draws)
+    return by_regression(y, x, probability, draws)
 
 
 def systematic(probability, order, size, repetitions, random):
@@ -214,6 +224,7 @@ def rule_rows(arguments, name, path):
 
 def check(arguments, name, path):
     delta, width, _ = values_and_weights(arguments, name, path)
+    predicted = predictions(arguments, name, path)
     weight = 2 + np.round(100 * sum(w / w.mean() for w in width.values()))
     worst = 0
     covers = {q: 0 for q in delta}
@@ -226,7 +237,7 @@ def check(arguments, name, path):
                 raise RuntimeError(f"{name}: other probabilities than those of the widths")
             draws = np.repeat(np.arange(len(weight)), file["ranges/drawn"][()])[None, :]
             for q, y in delta.items():
-                mean, reach = (v[0] for v in by_draws(y, weight / weight.sum(), draws))
+                mean, reach = (v[0] for v in by_program(y, predicted[q], weight / weight.sum(), draws))
                 stored = file["ranges"].attrs[f"mean_{q}"]
                 worst = max(worst, np.abs(stored - [mean, mean - reach, mean + reach]).max() / y.mean())
                 covers[q] += stored[1] <= y.mean() <= stored[2]
