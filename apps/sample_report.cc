@@ -14,7 +14,10 @@ namespace indet::app {
 
 nlohmann::json sample_to_json(const ForceRanges& ranges) {
   nlohmann::json json = {{"seed", ranges.sample_seed}, {"confidence", kConfidence}};
-  if (ranges.draws > 0) json["draws"] = ranges.draws;
+  if (ranges.draws > 0) {
+    json["draws"] = ranges.draws;
+    json["estimator"] = to_string(ranges.estimator);
+  }
   for (const auto& [name, estimate] : {std::pair("delta_R", ranges.sample_R), {"delta_T", ranges.sample_T}}) {
     json[name] = {{"mean", json_number(estimate.mean)},
                   {"low", json_number(estimate.low)},
@@ -28,9 +31,12 @@ void print_sample(const Packing& packing, const ForceRanges& ranges) {
   fmt::print("\nestimate for all {}, from {} drawn at random (seed {}), with {:.0f} % confidence\n",
              counted(packing.contact_count(), "contact"), ranges.requested, ranges.sample_seed,
              100 * kConfidence);
-  if (ranges.draws > 0)
+  if (ranges.draws > 0) {
     fmt::print("  {} with replacement, with probabilities that follow the widths about the analytic centre\n",
                counted(ranges.draws, "draw"));
+    if (ranges.estimator == DrawEstimator::kRegression)
+      fmt::print("  means by regression on predictions of δ from these widths\n");
+  }
   const int count = ranges.draws > 0 ? ranges.draws : ranges.requested;
   for (const auto& [name, e] : {std::pair("δR", ranges.sample_R), {"δT", ranges.sample_T}}) {
     if (std::isnan(e.low)) {

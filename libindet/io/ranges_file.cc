@@ -39,6 +39,7 @@ constexpr const auto& values_of(StateChoice::Kind) { return kStateKinds; }
 constexpr const auto& values_of(StateChoice::Contacts) { return kKindsOfStateContacts; }
 constexpr const auto& values_of(PolytopeStatus) { return kStatuses; }
 constexpr const auto& values_of(ContactChoice::Kind) { return kChoices; }
+constexpr const auto& values_of(DrawEstimator) { return kDrawEstimators; }
 
 constexpr const char* kWork = "/provenance/work";
 
@@ -140,10 +141,12 @@ class FieldReader {
  private:
   bool is_stored(const Field& field) const {
     // A file of all contacts, or of contacts that were equally likely, does not say so, and one of an earlier
-    // version not which states it has, or by which method it was made, or how.
+    // version not which states it has, by which estimator a mean was found (there was one), or by which
+    // method it was made, or how.
     const bool may_lack =
-        is(field.group, "/ranges") && (is(field.name, "contacts") || is(field.name, "draws") ||
-                                       is(field.name, "states") || is(field.name, "states_of"));
+        is(field.group, "/ranges") &&
+        (is(field.name, "contacts") || is(field.name, "draws") || is(field.name, "estimator") ||
+         is(field.name, "states") || is(field.name, "states_of"));
     const bool may_be_older =
         is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));

@@ -7,7 +7,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
-#include "libindet/statistics/draw_estimate.h"
+#include "libindet/range/width_predictions.h"
 
 namespace indet {
 namespace {
@@ -19,22 +19,22 @@ double relative_position(double simulated, double minimum, double maximum, doubl
   return (simulated - minimum) / width;
 }
 
-/// From the contacts that were drawn with unequal probabilities.
-SampleEstimate estimate_from_draw(const ContactDraw& draw, const Eigen::VectorXd& measure) {
+/// From the contacts that were drawn with unequal probabilities. `prediction`: of the measure, of all
+/// contacts.
+SampleEstimate estimate_from_draw(const ContactDraw& draw, const Eigen::VectorXd& measure,
+                                  const Eigen::VectorXd& prediction) {
   const double total = draw.weight.cast<double>().sum();
   std::vector<DrawnValue> values;
   for (Eigen::Index i = 0; i < measure.size(); ++i) {
     if (draw.drawn[i] == 0) continue;
     if (std::isnan(measure[i])) return {};
-    values.push_back({measure[i], draw.weight[i] / total, draw.drawn[i]});
+    values.push_back({measure[i], draw.weight[i] / total, draw.drawn[i], prediction[i]});
   }
-  return estimate_from_draws(values, static_cast<int>(measure.size()));
+  return estimate_by_regression(values, static_cast<int>(measure.size()), prediction.mean());
 }
 
-/// From the contacts that were asked for.
-SampleEstimate estimate_from_requested(const ContactRequest& request, const Table4<Outcome>& outcome,
-                                       const Eigen::VectorXd& measure) {
-  if (request.draws > 0) return estimate_from_draw(request, measure);
+/// From contacts that were equally likely.
+SampleEstimate estimate_from_requested(const Table4<Outcome>& outcome, const Eigen::VectorXd& measure) {
   std::vector<double> values;
   for (Eigen::Index i = 0; i < measure.size(); ++i) {
     if (outcome(i, kMinR) == Outcome::kNotRequested) continue;
@@ -91,9 +91,15 @@ Measures measure(const Packing& packing, const ProblemSummary& problem, const Co
     measures.R_star[i] = relative_position(contact.R, value[kMinR], value[kMaxR], internal_unit);
     measures.T_star[i] = relative_position(contact.T, value[kMinT], value[kMaxT], internal_unit);
   }
-  if (request.choice == ContactChoice::Kind::kSample) {
-    measures.sample_R = estimate_from_requested(request, certified.outcome, measures.delta_R);
-    measures.sample_T = estimate_from_requested(request, certified.outcome, measures.delta_T);
+  if (request.draws > 0) {
+    const WidthPredictions of_R(packing, request, problem.dim, false);
+    const WidthPredictions of_T(packing, request, problem.dim, true);
+    measures.sample_R = estimate_from_draw(request, measures.delta_R, of_R.deltas() / unit);
+    measures.sample_T = estimate_from_draw(request, measures.delta_T, of_T.deltas() / unit);
+    if (request.draws >= kFewestForRegression) measures.estimator = DrawEstimator::kRegression;
+  } else if (request.choice == ContactChoice::Kind::kSample) {
+    measures.sample_R = estimate_from_requested(certified.outcome, measures.delta_R);
+    measures.sample_T = estimate_from_requested(certified.outcome, measures.delta_T);
   }
   if (packing.has_simulated_forces()) {
     const CoulombCount coulomb = count_coulomb(packing, packing.simulated_forces(), tolerance::kSliding);

@@ -7,7 +7,7 @@
 #include "libindet/range/contact_choice.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/problem_summary.h"
-#include "libindet/statistics/sample_estimate.h"
+#include "libindet/statistics/draw_estimate.h"
 
 namespace indet {
 
@@ -25,6 +25,8 @@ struct Measures {
   int sliding = -1;
   int non_transmitting = -1;          ///< Non-transmitting contacts of the simulated state; −1 if unknown.
   SampleEstimate sample_R, sample_T;  ///< δR and δT of all contacts, estimated from a sample.
+  /// Of their means, where contacts were drawn with unequal probabilities.
+  DrawEstimator estimator = DrawEstimator::kMean;
 };
 
 /// Distances of extremal states [24], in mg; NaN where one is missing.
@@ -39,7 +41,9 @@ StateDistances state_distances(const Rows<double>& states, const Table4<std::int
 /// Norms and distances of the states that are there: norm, largest_norm, d_R, d_T.
 void measure_states(const ExtremalStates& extremal, double force_unit, Measures& measures);
 
-/// An estimate from a sample is NaN if one of its ranges was not found, or there is none.
+/// An estimate from a sample is NaN if one of its ranges was not found, or there is none. From contacts drawn
+/// with unequal probabilities means are found by regression on what the widths predict
+/// (width_predictions.h).
 Measures measure(const Packing& packing, const ProblemSummary& problem, const ContactRequest& request,
                  const ExtremalStates& extremal, const Certified& certified);
 

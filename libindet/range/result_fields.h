@@ -323,6 +323,10 @@ void visit_measures(Part& r, Visit& visit) {
   estimate("band_delta_R", band, r.sample_R.band);
   estimate("mean_delta_T", mean, std::tie(r.sample_T.mean, r.sample_T.low, r.sample_T.high));
   estimate("band_delta_T", band, r.sample_T.band);
+  visit(Field{"/ranges", "estimator", "1",
+              "of these means: mean of z = delta/(M p), or regression of z on predictions over M p",
+              FieldSource::kAnswer, Extent::kOne, Extent::kOne, Presence::kDrawn},
+        r.estimator);
 }
 
 template <class Part, class Visit>

@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/range/estimate_coefficients.h"
 #include "libindet/verify/centre_check.h"
+#include "libindet/verify/rebuilt_predictions.h"
 
 namespace indet {
 namespace {
-
-/// ln(δ/σ) of a contact is expected at `location`, give or take `scale`.
-struct Expected {
-  double location = 0, scale = 0;
-};
 
 struct Band {
   double middle = 0, low = 0, high = 0;
@@ -27,7 +23,9 @@ struct Band {
 class PredictionsCheck {
  public:
   PredictionsCheck(const Packing& packing, const ForceRanges& ranges, Comparisons& compare)
-      : packing_(packing), ranges_(ranges), compare_(compare) {}
+      : ranges_(ranges),
+        compare_(compare),
+        predictions_{RebuiltPredictions(packing, ranges, 0), RebuiltPredictions(packing, ranges, 1)} {}
 
   void run() {
     compare_.equal(ranges_.coverage, kCoverage, "coverage");
@@ -43,7 +41,7 @@ class PredictionsCheck {
 
  private:
   bool is_determined(Eigen::Index i, int k) const {
-    return ranges_.width(i, k) <= tolerance::kDeterminedWidth * ranges_.centre(i, 0);
+    return predictions_[static_cast<std::size_t>(k)].is_determined(i);
   }
   int variable_contacts() const {
     int count = 0;
@@ -85,59 +83,29 @@ class PredictionsCheck {
   }
 
   void check_component(int k) {
-    const EstimateModel& model = k == 0 ? kModelOfR : kModelOfT;
+    const RebuiltPredictions& predictions = predictions_[static_cast<std::size_t>(k)];
     const DeltaEstimates& stored = k == 0 ? ranges_.estimated_R : ranges_.estimated_T;
     const Eigen::VectorXd& delta = k == 0 ? ranges_.delta_R : ranges_.delta_T;
-    double sum = 0;
-    double count = 0;
-    for (Eigen::Index i = 0; i < delta.size(); ++i) {
-      if (is_determined(i, k)) continue;
-      sum += ranges_.width(i, k);
-      ++count;
-    }
     std::vector<double> residuals;
     for (Eigen::Index i = 0; i < delta.size(); ++i) {
       if (is_determined(i, k) || ranges_.calibrates[i] == 0 || !(delta[i] > 0)) continue;
-      const Expected expected = expect(model, i, k, sum / count);
+      const RebuiltPredictions::Expected expected = predictions.expect(i);
       const double logarithm = std::log(delta[i]) - std::log(ranges_.width(i, k) / ranges_.force_unit);
       residuals.push_back((logarithm - expected.location) / expected.scale);
     }
-    const Band band = residuals.size() >= 19 ? by_definition(residuals) : by_law(residuals, model.residuals);
+    const Band band =
+        residuals.size() >= 19 ? by_definition(residuals) : by_law(residuals, predictions.model().residuals);
     const std::string name = k == 0 ? "delta_R" : "delta_T";
     for (Eigen::Index i = 0; i < delta.size(); ++i) {
       const auto at = [&](const char* what) { return fmt::format("{}_{} of contact {}", name, what, i); };
       const bool is_estimate = ranges_.outcome(i, 2 * k) == Outcome::kEstimate;
-      const Expected expected = is_estimate ? expect(model, i, k, sum / count) : Expected{};
       const auto value = [&](double residual) {
-        if (!is_estimate) return Verification::kNaN;
-        const double width = ranges_.width(i, k) / ranges_.force_unit;
-        return width * std::max(2.0, std::exp(expected.location + expected.scale * residual));
+        return is_estimate ? predictions.value(i, residual) : Verification::kNaN;
       };
       compare_.equal(stored.estimate[i], value(band.middle), at("estimate"));
       compare_.equal(stored.low[i], value(band.low), at("low"));
       compare_.equal(stored.high[i], value(band.high), at("high"));
     }
-  }
-
-  Expected expect(const EstimateModel& model, Eigen::Index i, int k, double mean) const {
-    const double mu = packing_[ContactId(static_cast<int>(i))].mu;
-    const double normal = ranges_.centre(i, 0);
-    const double ratios[] = {ranges_.width(i, k) / mean,
-                             ranges_.width(i, k) / (k == 0 ? normal : mu * normal),
-                             ranges_.width(i, 1) / ranges_.width(i, 0) / mu};
-    double c[4];
-    for (int n = 0; n < 3; ++n) c[n] = std::log(ratios[n]);
-    c[3] = std::abs(ranges_.centre(i, 1)) / (mu * normal);
-    for (std::size_t n = 0; n < 4; ++n) {
-      if (!(c[n] > model.least[n])) c[n] = model.least[n];  // or NaN
-      if (c[n] > model.largest[n]) c[n] = model.largest[n];
-    }
-    const double D = std::log(std::log(ranges_.dim < 8 ? 8.0 : static_cast<double>(ranges_.dim)));
-    const auto& a = model.location;
-    const auto& b = model.scale;
-    return {a[0] + a[1] * D + (a[2] + a[6] * c[0] + a[8] * D) * c[0] +
-                (a[3] + a[7] * c[1] + a[9] * D) * c[1] + a[4] * c[2] + a[5] * c[3],
-            std::exp(b[0] + b[1] * D + b[2] * c[0] + b[3] * c[1])};
   }
 
   static double mean(const std::vector<double>& values) {
@@ -181,9 +149,9 @@ class PredictionsCheck {
     return {middle, middle + law.low * deviation, middle + law.high * deviation};
   }
 
-  const Packing& packing_;
   const ForceRanges& ranges_;
   Comparisons& compare_;
+  std::array<RebuiltPredictions, 2> predictions_;  ///< of R and T
 };
 
 }  // namespace

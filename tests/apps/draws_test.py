@@ -13,7 +13,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import program  # noqa: E402
 
-STUDENT = 2.045229642132703  # 97.5 % quantile with 29 degrees of freedom
+STUDENT = 2.048407141795244  # 97.5 % quantile with 28 degrees of freedom
 
 
 class Draws(program.ProgramTest):
@@ -40,14 +40,23 @@ class Draws(program.ProgramTest):
         np.testing.assert_array_equal(ranges["draw_weight"],
                                       2 + np.round(100 * (width / width.mean(axis=0)).sum(axis=1)).astype(int))
         self.assertEqual(report["sample"]["draws"], 30)
+        self.assertEqual((report["sample"]["estimator"], attributes["estimator"]), ("regression", "regression"))
+        self.run_indet("analyze", "p.h5", "--accuracy", "estimate", "--calibrate", 0, "-o", "e.h5")
+        with h5py.File(self.folder / "e.h5") as file:
+            predicted = {name: np.nan_to_num(file[f"ranges/{name}_estimate"][()]) for name in ["delta_R", "delta_T"]}
         k = np.repeat(np.arange(contacts), ranges["drawn"])
         for name in ["delta_R", "delta_T"]:
-            z = ranges[name][k] * ranges["draw_weight"].sum() / (contacts * ranges["draw_weight"][k])
-            reach = STUDENT * z.std(ddof=1) / np.sqrt(30)
-            np.testing.assert_allclose(attributes[f"mean_{name}"], [z.mean(), z.mean() - reach, z.mean() + reach],
-                                       rtol=1e-12)
+            over = ranges["draw_weight"].sum() / (contacts * ranges["draw_weight"][k])
+            line = np.column_stack([np.ones(30), predicted[name][k] * over])
+            inverse = np.linalg.pinv(line)
+            at = np.array([1, predicted[name].mean()]) @ inverse  # the weight of each draw
+            z = ranges[name][k] * over
+            residual = (z - line @ (inverse @ z)) / (1 - np.diag(line @ inverse))
+            mean, reach = at @ z, STUDENT * np.sqrt(np.sum((at * residual) ** 2))
+            np.testing.assert_allclose(attributes[f"mean_{name}"], [mean, mean - reach, mean + reach], rtol=1e-10)
             np.testing.assert_allclose(attributes[f"band_{name}"], 0.15 + 0.2 / np.sqrt(30), rtol=1e-12)
-            self.assertAlmostEqual(report["sample"][name]["low"], z.mean() - reach, places=9)
+            self.assertAlmostEqual(report["sample"][name]["low"], mean - reach, places=9)
+            self.assertAlmostEqual(report["sample"][name]["mean"], mean, places=9)
 
     def test_the_mean_of_all_is_where_the_draws_say(self):
         self.analyze(output="all.h5")
@@ -69,11 +78,15 @@ class Draws(program.ProgramTest):
         self.assertEqual(report["objectives"], 4 * report["requested"])
 
     def test_text(self):
-        text = self.run_indet("analyze", "p.h5", "--method", "barrier", "--contacts", "sample:6", "-o", "r.h5").stdout
-        self.assertIn("  6 draws with replacement, with probabilities that follow the widths about the analytic centre\n", text)
-        self.assertRegex(text, r"δR +mean between [\d.]+ and [\d.]+; distribution function known to ± 0.23 by experience")
+        text = self.run_indet("analyze", "p.h5", "--method", "barrier", "--contacts", "sample:8", "-o", "r.h5").stdout
+        self.assertIn("  8 draws with replacement, with probabilities that follow the widths about the analytic centre\n"
+                      "  means by regression on predictions of δ from these widths\n", text)
+        self.assertRegex(text, r"δR +mean between [\d.]+ and [\d.]+; distribution function known to ± 0.22 by experience")
         text = self.run_indet("analyze", "p.h5", "--method", "barrier", "--contacts", "sample:3", "-o", "r.h5").stdout
         self.assertRegex(text, r"δR +mean [\d.]+ by the draws; no confidence interval \(--contacts sample:6 or more")
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual(file["ranges"].attrs["estimator"], "mean")
+        self.assertNotIn("regression", text)
         self.assertIn("\nindeterminacy of the contacts that were drawn (mg)\n", text)
         self.assertNotIn("nan", text[text.index("estimate for all"):])
 
@@ -98,6 +111,7 @@ class Draws(program.ProgramTest):
                 self.run_indet("analyze", "p.h5", "-o", "r.h5", *options)
                 with h5py.File(self.folder / "r.h5") as file:
                     self.assertNotIn("draws", file["ranges"].attrs)
+                    self.assertNotIn("estimator", file["ranges"].attrs)
                     self.assertNotIn("drawn", file["ranges"])
                 self.run_indet("export", "r.h5", "-o", "r.csv")
                 self.assertNotIn("drawn", (self.folder / "r.csv").read_text())

@@ -23,6 +23,8 @@ GUARDED_BY_THE_DIGEST_ALONE = {
     "equilibrium@largest_rejected", "equilibrium@rank_ambiguous", "equilibrium@rank_gap",
     "equilibrium@smallest_accepted", "ranges/sensitivity", "ranges/unique", "ranges/upper", "reactions/upper"}
 
+STUDENT = 2.3646242515927844  # 97.5 % quantile with 7 degrees of freedom
+
 SAMPLINGS = {"sampling", "uniform", "bias"}
 
 
@@ -199,6 +201,30 @@ class OfRanges(Tampered):
         self.assertEqual(sampled, {"requested", "sample_seed", "confidence", "mean_delta_R", "band_delta_R",
                                    "mean_delta_T", "band_delta_T"})
         self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE, {"ranges@sample_seed"})
+
+    def test_drawn_contacts_with_a_forged_digest(self):
+        self.run_indet("simulate", "--protocol", "cd1", "--disks", "10", "--seed", "1", "-o", "s.h5")
+        self.make("analyze", "s.h5", "--method", "barrier", "--contacts", "sample:8")
+        self.assertIn(("ranges", "mean_delta_T"), self.places)
+        self.places = [place for place in self.places if place[0] in {"ranges", "ranges/drawn", "ranges/draw_weight"}]
+        self.assertEqual(self.unnoticed("ranges"), set())
+        # The estimator of earlier versions, which did not name it.
+        with h5py.File(self.folder / "good.h5", "r+") as file:
+            ranges = file["ranges"]
+            self.assertEqual(ranges.attrs["estimator"], "regression")
+            del ranges.attrs["estimator"]
+            self.forge(file)
+        self.assertIn("mean_delta_R", self.run_indet("verify", "good.h5", status=5).stdout)
+        with h5py.File(self.folder / "good.h5", "r+") as file:
+            ranges = file["ranges"]
+            k = np.repeat(np.arange(len(ranges["drawn"])), ranges["drawn"])
+            for name in ("delta_R", "delta_T"):
+                z = (ranges[name][()] / ranges["draw_weight"][()])[k] * np.mean(ranges["draw_weight"])
+                reach = STUDENT * z.std(ddof=1) / np.sqrt(8)
+                ranges.attrs.modify(f"mean_{name}", [z.mean(), z.mean() - reach, z.mean() + reach])
+            self.forge(file)
+        self.run_indet("verify", "good.h5")
+        self.run_indet("inspect", "good.h5")
 
     def test_smallest_distances_with_a_forged_digest(self):
         self.make("analyze", "q.h5", "--smallest-distances")

@@ -147,9 +147,11 @@ TEST(RangesFile, HowContactsWereDrawnComesBack) {
   written.drawn.head(3) << 1, 2, 1;
   written.centre.setConstant(5, 2, 1.5);
   written.width.setConstant(5, 2, 0.75);
-  write_ranges(folder / "r.h5", test::sample_packing(), written, {});
-  const ForceRanges read = read_ranges(folder / "r.h5");
-  EXPECT_TRUE(test::same_bytes(read, written));
+  for (const DrawEstimator estimator : kDrawEstimators) {
+    written.estimator = estimator;
+    write_ranges(folder / "r.h5", test::sample_packing(), written, {});
+    EXPECT_TRUE(test::same_bytes(read_ranges(folder / "r.h5"), written));
+  }
   ++written.drawn[0];
   write_ranges(folder / "r.h5", test::sample_packing(), written, {});
   EXPECT_THAT([&] { read_ranges(folder / "r.h5"); },

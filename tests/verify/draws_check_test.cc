@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <utility>
+#include <vector>
 
 #include "libindet/range/analyze.h"
 #include "tests/support/zoo.h"
@@ -59,6 +60,27 @@ TEST_F(DrawsCheck, TellsWhatDoesNotFollow) {
   expect_contradiction([](ForceRanges& r) { r.sample_R.low -= 1e-9; }, "lower end of mean_delta_R");
   expect_contradiction([](ForceRanges& r) { r.sample_T.high += 1e-9; }, "upper end of mean_delta_T");
   expect_contradiction([](ForceRanges& r) { r.sample_T.band *= 1.1; }, "band_delta_T");
+  expect_contradiction([](ForceRanges& r) { r.estimator = DrawEstimator::kMean; }, "mean_delta_R");
+}
+
+/// As files were written before means were found by regression.
+TEST_F(DrawsCheck, KnowsTheMeanOfDraws) {
+  ForceRanges older = good_;
+  older.estimator = DrawEstimator::kMean;
+  const auto estimate = [&](const Eigen::VectorXd& delta) {
+    std::vector<DrawnValue> values;
+    for (Eigen::Index i = 0; i < delta.size(); ++i) {
+      if (older.drawn[i] > 0)
+        values.push_back({delta[i], older.weight[i] / older.weight.cast<double>().sum(), older.drawn[i]});
+    }
+    return estimate_from_draws(values, packing_.contact_count());
+  };
+  older.sample_R = estimate(older.delta_R);
+  older.sample_T = estimate(older.delta_T);
+  const Verification found = check(older);
+  EXPECT_TRUE(found.passed()) << first_message(found);
+  older.estimator = DrawEstimator::kRegression;
+  EXPECT_THAT(first_message(check(older)), HasSubstr("mean_delta_R"));
 }
 
 /// A state within F that is not its centre.
