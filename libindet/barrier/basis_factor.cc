@@ -73,8 +73,8 @@ std::optional<BasisFactor::Dependent> BasisFactor::factor(std::span<const int> b
   }
   const auto size = static_cast<int>(basis.size());
   lu_->symbolic = klu_analyze(size, first.data(), rows.data(), &lu_->common);
-  if (lu_->symbolic == nullptr) throw LibraryError("the basis of a state could not be factorised (KLU)");
-  lu_->numeric = klu_factor(first.data(), rows.data(), entries.data(), lu_->symbolic, &lu_->common);
+  if (lu_->symbolic != nullptr)
+    lu_->numeric = klu_factor(first.data(), rows.data(), entries.data(), lu_->symbolic, &lu_->common);
   if (lu_->numeric == nullptr) throw LibraryError("the basis of a state could not be factorised (KLU)");
   // Behind the first pivot that vanishes there are no numbers.
   const auto* pivots = static_cast<const double*>(lu_->numeric->Udiag);

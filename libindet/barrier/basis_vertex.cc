@@ -16,28 +16,26 @@ constexpr double kIndependent = 1e-3;
 /// With more columns to replace a basis is a poor proposal.
 constexpr std::size_t kMostDependent = 20;
 
-std::size_t at(int column) { return static_cast<std::size_t>(column); }
-
 }  // namespace
 
 BasisVertex::BasisVertex(const BlockStructure& structure)
-    : structure_(structure), factor_(structure), place_(at(structure.columns()), -1) {}
+    : structure_(structure), factor_(structure), place_(index(structure.columns()), -1) {}
 
 bool BasisVertex::set_basis(std::span<const double> rank) {
   std::vector<int> order(rank.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank[at(a)] > rank[at(b)]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank[index(a)] > rank[index(b)]; });
   std::vector<int> basis(order.begin(), order.begin() + structure_.rows());
   std::sort(basis.begin(), basis.end());
   std::vector<int> dependent;  // places
   for (auto next = factor_.factor(basis); next; next = factor_.factor(basis)) {
     if (dependent.size() == kMostDependent) return false;
-    basis[at(next->p)] = factor_.unit_column(next->row);
+    basis[index(next->p)] = factor_.unit_column(next->row);
     dependent.push_back(next->p);
   }
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t p = 0; p < basis.size(); ++p) {
-    if (basis[p] < factor_.unit_column(0)) place_[at(basis[p])] = static_cast<int>(p);
+    if (basis[p] < factor_.unit_column(0)) place_[index(basis[p])] = static_cast<int>(p);
   }
   for (const int p : dependent) {
     if (!take_independent(p, order)) return false;
@@ -51,14 +49,14 @@ bool BasisVertex::set_basis(std::span<const double> rank) {
 
 /// The first column of the order that is independent of all but the one at a place comes there.
 bool BasisVertex::take_independent(int place, const std::vector<int>& order) {
-  std::vector<double> y(at(structure_.rows()), 0);
-  y[at(place)] = 1;
+  std::vector<double> y(index(structure_.rows()), 0);
+  y[index(place)] = 1;
   factor_.solve_transposed(y);
   const std::vector<double> along = transposed_product(structure_, y);
   const double enough = kIndependent * largest_entry(along);
   for (const int column : order) {
-    if (is_basic(column) || std::abs(along[at(column)]) < enough) continue;
-    place_[at(column)] = place;
+    if (is_basic(column) || std::abs(along[index(column)]) < enough) continue;
+    place_[index(column)] = place;
     return factor_.replace(place, column, places_along(column));
   }
   return false;
@@ -66,7 +64,7 @@ bool BasisVertex::take_independent(int place, const std::vector<int>& order) {
 
 std::vector<double> BasisVertex::places_along(int column) const {
   std::vector<double> unit(place_.size(), 0);
-  unit[at(column)] = 1;
+  unit[index(column)] = 1;
   std::vector<double> along = product(structure_, unit);
   factor_.solve(along);
   return along;
@@ -74,11 +72,11 @@ std::vector<double> BasisVertex::places_along(int column) const {
 
 bool BasisVertex::exchange(int entering, int leaving, const std::vector<double>& along) {
   std::vector<double> of_places;
-  for (const int column : factor_.basis()) of_places.push_back(-along[at(column)]);
+  for (const int column : factor_.basis()) of_places.push_back(-along[index(column)]);
   *std::lower_bound(closed_.begin(), closed_.end(), entering) = leaving;
   std::sort(closed_.begin(), closed_.end());
-  std::swap(place_[at(entering)], place_[at(leaving)]);
-  return factor_.replace(place_[at(entering)], entering, of_places);
+  std::swap(place_[index(entering)], place_[index(leaving)]);
+  return factor_.replace(place_[index(entering)], entering, of_places);
 }
 
 std::optional<std::vector<double>> BasisVertex::solution(std::span<const double> load) const {
@@ -88,7 +86,7 @@ std::optional<std::vector<double>> BasisVertex::solution(std::span<const double>
   for (int round = 0; round < kMostRounds && largest_entry(left) > tolerance::kVertexRounding * size;
        ++round) {
     factor_.solve(left);
-    for (std::size_t p = 0; p < left.size(); ++p) x[at(factor_.basis()[p])] += left[p];
+    for (std::size_t p = 0; p < left.size(); ++p) x[index(factor_.basis()[p])] += left[p];
     left = product(structure_, x);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] = load[i] - left[i];
   }
@@ -99,25 +97,25 @@ std::optional<std::vector<double>> BasisVertex::solution(std::span<const double>
 std::vector<double> BasisVertex::direction(int entering) const {
   std::vector<double> result(place_.size(), 0);
   const std::vector<double> along = places_along(entering);
-  for (std::size_t p = 0; p < along.size(); ++p) result[at(factor_.basis()[p])] = -along[p];
-  result[at(entering)] = 1;
+  for (std::size_t p = 0; p < along.size(); ++p) result[index(factor_.basis()[p])] = -along[p];
+  result[index(entering)] = 1;
   return result;
 }
 
 std::vector<double> BasisVertex::row(int basic) const {
-  std::vector<double> y(at(structure_.rows()), 0);
-  y[at(place_[at(basic)])] = -1;
+  std::vector<double> y(index(structure_.rows()), 0);
+  y[index(place_[index(basic)])] = -1;
   factor_.solve_transposed(y);
   std::vector<double> rates = transposed_product(structure_, y);
-  for (const int column : factor_.basis()) rates[at(column)] = column == basic ? 1 : 0;
+  for (const int column : factor_.basis()) rates[index(column)] = column == basic ? 1 : 0;
   return rates;
 }
 
 std::vector<double> BasisVertex::price(std::vector<double>& costs) const {
-  std::vector<double> y(at(structure_.rows()), 0);
+  std::vector<double> y(index(structure_.rows()), 0);
   std::vector<double> left(y.size());
   const auto basic_costs = [&] {
-    for (std::size_t p = 0; p < left.size(); ++p) left[p] = costs[at(factor_.basis()[p])];
+    for (std::size_t p = 0; p < left.size(); ++p) left[p] = costs[index(factor_.basis()[p])];
     return largest_entry(left);
   };
   const double enough = tolerance::kVertexRounding * largest_entry(costs);

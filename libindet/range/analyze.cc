@@ -163,10 +163,9 @@ Wanted choose_contacts(const ContactChoice& choice, const ForcePolytope& polytop
   return wanted;
 }
 
-void add_smallest_distances(ForcePolytope& polytope, const std::vector<int>& contacts,
+void add_smallest_distances(const ForcePolytope& polytope, const std::vector<int>& contacts,
                             const AnalyzeOptions& options, Stopwatch& stopwatch, ForceRanges& ranges) {
   if (!options.smallest_distances) return;
-  if (!polytope.central) add_centre(polytope);
   ranges.smallest =
       find_smallest_distances(polytope, ranges, contacts, interval_options(options, "smallest distances"));
   stopwatch.mark("smallest distances");
@@ -205,8 +204,7 @@ void add_states(const Packing& packing, const ForcePolytope& polytope, const Sta
   if (!polytope.central) {
     found.extrema.reason =
         "forces are unbounded, for which this method has no extremal states, and the packing is too large "
-        "for "
-        "lp";
+        "for lp";
     return;
   }
   const Enclosures& enclosures = found.enclosures;

@@ -105,8 +105,11 @@ class StateSearch {
                       .keep_on = [&] { return keep_on(); }});
   }
 
-  bool keep_on() const {
-    return !options_.progress || options_.progress(settled_, static_cast<std::int64_t>(targets_.size()));
+  /// On every thread, since a vertex can be seconds away.
+  bool keep_on() {
+    const bool may_ask = options_.progress && std::this_thread::get_id() == caller_;
+    if (may_ask && !options_.progress(settled_, static_cast<std::int64_t>(targets_.size()))) stopped_ = true;
+    return !stopped_;
   }
 
   /// c + δ (g + ε h); where there is no c, because the value is 0 everywhere, the last alone.
@@ -143,9 +146,9 @@ class StateSearch {
     barrier::BasisVertex basis(central_.structure);
     int steps = 0;
     if (basis.set_basis(rank)) {
-      auto vertex = barrier::find_lexicographic_vertex(
-          basis, costs, central_.structure.load(), shifted.load(),
-          {.keep_on = [this] { return std::this_thread::get_id() != caller_ || keep_on(); }, .steps = steps});
+      auto vertex =
+          barrier::find_lexicographic_vertex(basis, costs, central_.structure.load(), shifted.load(),
+                                             {.keep_on = [this] { return keep_on(); }, .steps = steps});
       if (vertex) {
         vertices_[iterate.objective] = std::move(vertex);
         ++settled_;
@@ -217,6 +220,7 @@ class StateSearch {
   std::vector<WantedState> targets_;
   std::vector<std::optional<barrier::LexicographicVertex>> vertices_;  ///< of each target
   std::thread::id caller_ = std::this_thread::get_id();  ///< that shows progress, and hears of signals
+  std::atomic<bool> stopped_ = false;
   std::atomic<std::int64_t> settled_ = 0, iterations_ = 0;
 };
 
