@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "apps/command.h"
+#include "libindet/base/remaining_time.h"
 
 namespace indet::app {
 namespace {
@@ -44,26 +45,32 @@ class ProgressBar {
       clear();
       stage_ = progress.stage;
       start_ = drawn_ = Clock::now();
+      remaining_ = {};
       return;
     }
     if (seconds_since(start_) < 0.5 || seconds_since(drawn_) < 0.1) return;
     drawn_ = Clock::now();
+    remaining_.update(seconds_since(start_), share_of(progress));
     std::cerr << "\r\x1b[K" << line(progress) << std::flush;
     shown_ = true;
   }
 
  private:
+  static double share_of(const Progress& progress) {
+    if (progress.total <= 0) return 0;
+    return std::clamp(static_cast<double>(progress.done) / static_cast<double>(progress.total), 0.0, 1.0);
+  }
+
   std::string line(const Progress& progress) const {
     std::string text = stage_;
     if (progress.total > 0) {
-      const double fraction =
-          std::clamp(static_cast<double>(progress.done) / static_cast<double>(progress.total), 0.0, 1.0);
+      const double fraction = share_of(progress);
       constexpr int kWidth = 24;
       const int filled = static_cast<int>(fraction * kWidth);
       text += fmt::format(" [{}{}] {:3.0f} %", std::string(static_cast<std::size_t>(filled), '#'),
                           std::string(static_cast<std::size_t>(kWidth - filled), '.'), 100 * fraction);
-      if (fraction > 0.02)
-        text += fmt::format(", {:.0f} s left", seconds_since(start_) * (1 - fraction) / fraction);
+      if (const auto left = remaining_.seconds(); left && fraction > 0.02)
+        text += fmt::format(", {:.0f} s left", *left);
     } else {
       text += fmt::format(" {}, {:.0f} s", progress.done, seconds_since(start_));
     }
@@ -79,6 +86,7 @@ class ProgressBar {
   bool visible_;
   bool shown_ = false;
   std::string stage_;
+  RemainingTime remaining_;
   Clock::time_point start_;
   Clock::time_point drawn_;
 };

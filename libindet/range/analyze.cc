@@ -293,7 +293,8 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
   if (!polytope.central) add_centre(polytope);
-  Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima);
+  Enclosures enclosures =
+      enclose_values(polytope, extrema, reactions.optima, interval_options(options, "enclosures").progress);
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
       enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/error.h"
 #include "libindet/dense/lu.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/motion_rows.h"
@@ -21,11 +23,12 @@ namespace {
 
 class CentralEncloser {
  public:
-  CentralEncloser(const ForcePolytope& polytope, const Extrema& extrema)
+  CentralEncloser(const ForcePolytope& polytope, const Extrema& extrema, const EnclosureProgress& progress)
       : polytope_(polytope),
         problem_(polytope.problem),
         central_(*polytope.central),
         extrema_(extrema),
+        progress_(progress),
         first_(polytope.problem.first_unknowns()) {}
 
   Enclosures run(std::span<const SumAtOptimum> sums) {
@@ -95,11 +98,16 @@ class CentralEncloser {
     return y;
   }
 
+  void tell_progress() {
+    if (progress_ && !progress_(done_++, std::ssize(extrema_.proofs))) throw Interrupted();
+  }
+
   void enclose_proofs() {
     for_each_basis(
         polytope_, extrema_.proofs, [&](const ProofBasis& basis, std::span<const std::size_t> numbers) {
           std::optional<Point> at_vertex;
           for (const std::size_t number : numbers) {
+            tell_progress();
             const OptimalBasis& proof = extrema_.proofs[number];
             const Functional f = functional(proof.contact, proof.column);
             if (f.on_edges.empty()) continue;
@@ -165,6 +173,8 @@ class CentralEncloser {
   const EquilibriumProblem& problem_;
   const CentralPolytope& central_;
   const Extrema& extrema_;
+  const EnclosureProgress& progress_;
+  std::int64_t done_ = 0;   ///< proofs that have been read
   std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
   Enclosures enclosures_;
   std::optional<Point> stored_;  ///< of row `stored_row_` of the states
@@ -175,8 +185,8 @@ class CentralEncloser {
 }  // namespace
 
 Enclosures enclose_by_centre(const ForcePolytope& polytope, const Extrema& extrema,
-                             std::span<const SumAtOptimum> sums) {
-  return CentralEncloser(polytope, extrema).run(sums);
+                             std::span<const SumAtOptimum> sums, const EnclosureProgress& progress) {
+  return CentralEncloser(polytope, extrema, progress).run(sums);
 }
 
 }  // namespace indet

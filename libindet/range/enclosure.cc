@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libindet/base/constants.h"
+#include "libindet/base/error.h"
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/dense/lu.h"
 #include "libindet/range/central_enclosure.h"
@@ -29,10 +30,11 @@ struct StateBound {
 
 class Encloser {
  public:
-  Encloser(const ForcePolytope& polytope, const Extrema& extrema)
+  Encloser(const ForcePolytope& polytope, const Extrema& extrema, const EnclosureProgress& progress)
       : polytope_(polytope),
         problem_(polytope.problem),
         extrema_(extrema),
+        progress_(progress),
         first_(polytope.problem.first_unknowns()),
         equations_(polytope) {
     bound_states();
@@ -49,6 +51,7 @@ class Encloser {
       for (int column = 0; column < 4; ++column) {
         if (!std::isnan(extrema_.value(i, column))) enclose(i, column);
       }
+      if (progress_ && !progress_(i, count)) throw Interrupted();
     }
     const bool limited = polytope_.status != PolytopeStatus::kBounded || std::isfinite(total_);
     enclosures_.proven = !polytope_.doubtful && inside_ && limited;
@@ -334,6 +337,7 @@ class Encloser {
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
   const Extrema& extrema_;
+  const EnclosureProgress& progress_;
   Enclosures enclosures_;
   std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
   EquationBounds equations_;
@@ -353,9 +357,9 @@ class Encloser {
 }  // namespace
 
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
-                          std::span<const SumAtOptimum> sums) {
-  if (polytope.central) return enclose_by_centre(polytope, extrema, sums);
-  if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema).run(sums);
+                          std::span<const SumAtOptimum> sums, const EnclosureProgress& progress) {
+  if (polytope.central) return enclose_by_centre(polytope, extrema, sums, progress);
+  if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema, progress).run(sums);
   Enclosures none;
   for (auto* table : {&none.lower, &none.upper, &none.sensitivity})
     table->setConstant(static_cast<Eigen::Index>(polytope.problem.contacts.size()), 4, kNaN);

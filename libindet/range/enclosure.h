@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +40,8 @@ struct Enclosures {
   std::vector<SumBounds> sums;  ///< of the sums that were asked for
 };
 
+using EnclosureProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
 /// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
 ///
 /// The exact problem is A u = b, x(u) ≥ 0, with the doubles of the packing taken as they are; A and b in
@@ -67,8 +71,9 @@ struct Enclosures {
 /// nothing to enclose; `proven` then tells whether its emptiness is beyond doubt.
 /// Where the polytope has its analytic centre, it proves the same inequalities without P
 /// (central_enclosure.h).
-/// `sums`: further functionals, of several contacts at once, to be enclosed likewise.
+/// `sums`: further functionals, of several contacts at once, to be enclosed likewise. `progress` is told how
+/// many values of how many are enclosed; false stops it (Interrupted).
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
-                          std::span<const SumAtOptimum> sums = {});
+                          std::span<const SumAtOptimum> sums = {}, const EnclosureProgress& progress = {});
 
 }  // namespace indet

@@ -119,12 +119,14 @@ class ExtremaFinder {
   }
 
  private:
-  /// The options of one search, whose progress is that of the whole: `settled_` objectives are behind it.
-  SearchOptions options_within() const {
+  /// The options of one search for so many objectives, whose progress is that of the whole: `settled_`
+  /// objectives are behind it.
+  SearchOptions options_for(std::int64_t objectives) const {
     SearchOptions options = options_;
     if (options_.progress) {
-      options.progress = [this](std::int64_t settled, std::int64_t) {
-        return options_.progress(settled_ + settled, total_);
+      options.progress = [this, objectives](std::int64_t done, std::int64_t total) {
+        const std::int64_t share = total > 0 ? objectives * done / total : 0;
+        return options_.progress(settled_ + share, total_);
       };
     }
     return options;
@@ -197,7 +199,7 @@ class ExtremaFinder {
     const Basis start = options_.method == Method::kPivotingPaper
                             ? first_extremal_point(simulated_, polytope_, block, options_.lp, extrema_.paper)
                             : block.lightest;
-    SearchOptions within = options_within();
+    SearchOptions within = options_for(wanted.objectives());
     if (!kept_.keeps_all()) {
       within.sink = [&](const Vertex& vertex, std::span<const std::int64_t> objectives) {
         note_vertex(number, wanted, vertex, objectives);

@@ -31,9 +31,8 @@ struct SearchOptions {
   /// Where set, vertices are handed over as they settle objectives, each of these once, on the calling
   /// thread; of those passed only the bases are held. Not with canonical_states or solver_states.
   VertexSink sink;
-  /// Called now and then with the numbers of objectives settled and asked for; false stops the search
-  /// (Interrupted).
-  std::function<bool(std::int64_t settled, std::int64_t total)> progress;
+  /// Called now and then with how much of how much work is done; false stops the search (Interrupted).
+  std::function<bool(std::int64_t done, std::int64_t total)> progress;
 };
 
 }  // namespace indet
