@@ -272,7 +272,9 @@ BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& p
 
 barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem) {
   const double unit = problem.units.internal_in_scene();
-  const auto room = [&](double bound) { return unit * (4 * kRoundoff * std::abs(bound) + kTiny); };
+  const auto room = [&](double bound) {
+    return bound == 0 ? 0 : unit * (4 * kRoundoff * std::abs(bound) + kTiny);
+  };
   return {bounds.lower * unit - room(bounds.lower), bounds.upper * unit + room(bounds.upper)};
 }
 

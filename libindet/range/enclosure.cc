@@ -306,7 +306,8 @@ class Encloser {
       if (is_determined) inner = std::max(inner, -from_above(f.opposite(), -y));
     }
     const double unit = problem_.units.internal_in_scene();
-    const double low = sign > 0 ? inner : -outer;
+    const double least = column == kMinR ? 0 : -kInfinity;  // contacts do not pull
+    const double low = std::max(least, sign > 0 ? inner : -outer);
     const double high = sign > 0 ? outer : -inner;
     enclosures_.lower(i, column) = std::min(stored, widened(low, -1, unit));
     enclosures_.upper(i, column) = std::max(stored, widened(high, 1, unit));
@@ -330,7 +331,7 @@ class Encloser {
 
   /// A bound in the scene's units.
   static double widened(double bound, double direction, double unit) {
-    if (std::isinf(bound)) return bound;
+    if (std::isinf(bound) || bound == 0) return bound;
     return bound * unit + direction * (4 * kRoundoff * std::abs(bound) * unit + kTiny * unit);
   }
 

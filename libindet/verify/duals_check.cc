@@ -83,7 +83,8 @@ class DualsCheck {
                           place))
       return;
     const Bound bound = bound_of(contact, column >= kMinT, is_maximum ? -1 : 1, y);
-    const double proven = is_maximum ? -bound.value : bound.value;
+    double proven = is_maximum ? -bound.value : bound.value;
+    if (column == kMinR) proven = std::max(proven, 0.0);  // contacts do not pull
     const bool holds = is_maximum ? upper >= proven - bound.rounding : lower <= proven + bound.rounding;
     const bool is_possible = is_maximum ? proven + bound.rounding >= lower : proven - bound.rounding <= upper;
     bool is_proven = compare_.require(

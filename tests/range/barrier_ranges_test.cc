@@ -45,6 +45,10 @@ void expect_intervals_meet(const ForceRanges& lp, const ForceRanges& barrier) {
       }
       EXPECT_LE(barrier.lower(i, column), lp.upper(i, column));
       EXPECT_GE(barrier.upper(i, column), lp.lower(i, column));
+      if (column == kMinR) {
+        EXPECT_GE(lp.lower(i, column), std::min(0.0, lp.value(i, column)));
+        EXPECT_GE(barrier.lower(i, column), std::min(0.0, barrier.value(i, column)));
+      }
       if (barrier.method != Method::kBarrier) continue;
       EXPECT_EQ(barrier.outcome(i, column), Outcome::kEnclosed);
       EXPECT_LT(barrier.vertex(i, column), 0);
