@@ -14,8 +14,10 @@ import subprocess
 import sys
 
 import h5py
-import measured
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import measured  # noqa: E402
 
 
 def write(path, rows):

@@ -22,8 +22,10 @@ import pathlib
 import sys
 
 import h5py
-import measured
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import measured  # noqa: E402
 
 COLUMNS = ["packing", "disks", "contacts", "knob", "setting", "seconds", "memory_MB", "error", "by_interval", "certified", "values"]
 

@@ -21,7 +21,6 @@ import collections
 import csv
 import json
 import math
-import os
 import pathlib
 import subprocess
 import sys
@@ -29,6 +28,9 @@ import tempfile
 
 import h5py
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import measured  # noqa: E402
 
 FLOOR = 1e-15  # rounding: errors below are none, and are drawn here
 LARGE = "mean delta, 400 disks"
@@ -47,18 +49,10 @@ class Bench:
 
     def run(self, *arguments):
         """The JSON document of a subcommand, and the CPU time of its process; status 5 (uncertain) counts as done."""
-        process = subprocess.Popen([self.indet, "--threads", "1", *map(str, arguments), "--json", "--quiet"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                                   env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
-        output = process.stdout.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode not in (0, 5):
-            raise RuntimeError(f"{arguments}: status {process.returncode}")
-        document = json.loads(output)
+        cpu, _, document = measured.run(self.indet, *arguments, report=True)
         if arguments[0] == "analyze":
             document["analysis"] = sum(document["seconds"].values())
-        return document | {"cpu": usage.ru_utime + usage.ru_stime}
+        return document | {"cpu": cpu}
 
     def method(self, name, file, tolerance=None):
         command = [self.methods, name, file] + ([str(tolerance)] if tolerance else [])
