@@ -89,6 +89,32 @@ TEST(VerifyRanges, FixedDisksDoNotMove) {
   expect_contradiction(packing, wrong, "disk 2 is fixed, but moves");
 }
 
+TEST(VerifyRanges, WhatIsStoredOfAMotionIsWhatIsProven) {
+  // A disk on a floor that is tilted by so little rolls down (1, −t, −1) all the same.
+  for (const double t : {2e-10, 5e-10, 9e-10}) {
+    const Packing packing = zoo::disk_on_incline(t, 0.5);
+    for (const Method method : {Method::kLp, Method::kBarrier}) {
+      AnalyzeOptions options;
+      options.method = method;
+      const ForceRanges ranges = analyze(packing, options);
+      ASSERT_EQ(ranges.status, PolytopeStatus::kEmpty);
+      EXPECT_FALSE(ranges.doubtful);
+      EXPECT_NEAR(std::abs(ranges.motion(0, 1) / t), 1, 1e-6) << t;
+      EXPECT_TRUE(verify_ranges(packing, ranges).passed()) << first_message(verify_ranges(packing, ranges));
+      ForceRanges wrong = ranges;
+      wrong.motion(0, 1) = 0;
+      expect_contradiction(packing, wrong, "the load does no work");
+      wrong.motion(0, 1) = -t;
+      wrong.motion(0, 2) *= -1;
+      expect_contradiction(packing, wrong, "some contact resists it");
+      wrong = ranges;
+      wrong.motion.row(0) << 1e-11, -1, 0;
+      wrong.motion(0, 1) = -1e-10;  // resisted by less than is told from rounding, and by no other motion near
+      expect_contradiction(packing, wrong, "no exact motion near to it");
+    }
+  }
+}
+
 TEST(VerifyRanges, AcceptsLoadedWalls) {
   for (const Packing& packing : {zoo::disks_between_plates(3, 2, 0.3), zoo::biaxial_box(3, 2, 1, 2, 0.4)}) {
     const ForceRanges good = analyze(packing);
