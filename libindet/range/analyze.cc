@@ -302,7 +302,8 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (enclosures.proven && polytope.status == PolytopeStatus::kUnbounded)
     close_open_ends(packing, contacts, extrema, reactions, interval_options(options, "enclosures"),
                     enclosures);
-  if (enclosures.proven && polytope.exact) settle_exactly(packing, polytope, extrema, enclosures);
+  if (enclosures.proven && polytope.exact)
+    settle_exactly(packing, polytope, extrema, reactions.optima, enclosures);
   stopwatch.mark("enclosures");
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <span>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "libindet/base/constants.h"
@@ -18,20 +19,20 @@ namespace {
 constexpr double kMostWork = 1e9;
 constexpr int kMostPivots = 20;
 
-/// The exact basis next to the vertex of `proof`, or next to the lightest state where there is none.
+using Bases = std::vector<std::pair<std::size_t, Basis>>;
+
+/// The exact basis next to a state that has blocks at these bases, and the others at their lightest vertex.
 std::shared_ptr<const exact::ContactBasis> basis_of(const Packing& packing, const ForcePolytope& polytope,
-                                                    const OptimalBasis* proof) {
-  const InternalForces state =
-      proof == nullptr ? polytope.problem.state(polytope.lightest)
-                       : state_at(polytope, proof->block,
-                                  compute_vertex(polytope.blocks[proof->block].view, proof->basis));
+                                                    const InternalForces& state, const Bases& bases) {
   const SceneForces forces = polytope.problem.units.scene(state);
   const Eigen::VectorXd& F = forces.value();
   std::vector<double> preference =
       exact::edge_strengths(packing, std::span(F.data(), static_cast<std::size_t>(F.size())));
   for (std::size_t b = 0; b < polytope.blocks.size(); ++b) {
     const PolytopeBlock& block = polytope.blocks[b];
-    for (const int k : proof != nullptr && proof->block == b ? proof->basis : block.lightest) {
+    const auto own =
+        std::find_if(bases.begin(), bases.end(), [&](const auto& basis) { return basis.first == b; });
+    for (const int k : own != bases.end() ? own->second : block.lightest) {
       const Edge& edge = polytope.problem.edge(block.edges[static_cast<std::size_t>(k)]);
       preference[static_cast<std::size_t>(polytope.problem.half_plane(edge))] = -kInfinity;
     }
@@ -42,36 +43,58 @@ std::shared_ptr<const exact::ContactBasis> basis_of(const Packing& packing, cons
 }  // namespace
 
 void settle_exactly(const Packing& packing, const ForcePolytope& polytope, const Extrema& extrema,
-                    Enclosures& enclosures) {
+                    std::span<const SumAtOptimum> sums, Enclosures& enclosures) {
   const Eigen::VectorXd loads = loads_at_contacts(packing);
   Table4<int> proofs = Table4<int>::Constant(extrema.value.rows(), 4, -1);
   for (std::size_t k = 0; k < extrema.proofs.size(); ++k)
     proofs(extrema.proofs[k].contact, extrema.proofs[k].column) = static_cast<int>(k);
+  const double solve = std::pow(static_cast<double>(polytope.exact->rows()), 3);
   double work = 0;
+  const auto settle = [&](const InternalForces& state, const Bases& bases, const exact::Goal& goal) {
+    std::optional<mpq_class> value;
+    if (const auto start = basis_of(packing, polytope, state, bases)) {
+      const exact::Optimum found = exact::maximise(*polytope.exact, start, goal, kMostPivots);
+      work += found.pivots * solve;
+      if (found.verdict == exact::Verdict::kOptimal) value = found.value;
+    }
+    return value;
+  };
   for (Eigen::Index i = 0; i < extrema.value.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
       const double stored = extrema.value(i, column);
       double& lower = enclosures.lower(i, column);
       double& upper = enclosures.upper(i, column);
       if (!std::isfinite(stored) || upper - lower <= promised_width(stored, loads[i])) continue;
-      const auto start = [&] {
-        work += std::pow(static_cast<double>(polytope.exact->rows()), 3);
-        const int proof = proofs(i, column);
-        return work > kMostWork
-                   ? nullptr
-                   : basis_of(packing, polytope,
-                              proof < 0 ? nullptr : &extrema.proofs[static_cast<std::size_t>(proof)]);
-      }();
-      if (!start) continue;
+      if ((work += solve) > kMostWork) return;
+      InternalForces state = polytope.problem.state(polytope.lightest);
+      Bases bases;
+      if (proofs(i, column) >= 0) {
+        const OptimalBasis& proof = extrema.proofs[static_cast<std::size_t>(proofs(i, column))];
+        state =
+            state_at(polytope, proof.block, compute_vertex(polytope.blocks[proof.block].view, proof.basis));
+        bases.emplace_back(proof.block, proof.basis);
+      }
       const bool is_maximum = column == kMaxR || column == kMaxT;
-      const exact::Goal goal(static_cast<int>(2 * i) + (column >= kMinT ? 1 : 0), is_maximum ? 1 : -1);
-      const exact::Optimum found = exact::maximise(*polytope.exact, start, goal, kMostPivots);
-      work += found.pivots * std::pow(static_cast<double>(polytope.exact->rows()), 3);
-      if (found.verdict != exact::Verdict::kOptimal) continue;
-      const exact::Enclosure bounds = exact::enclose(found.value);
+      const int component = static_cast<int>(2 * i) + (column >= kMinT ? 1 : 0);
+      const auto value = settle(state, bases, {component, is_maximum ? 1 : -1});
+      if (!value) continue;
+      const exact::Enclosure bounds = exact::enclose(*value);
       lower = std::min(stored, bounds.lower);
       upper = std::max(stored, bounds.upper);
     }
+  }
+  for (std::size_t k = 0; k < enclosures.sums.size(); ++k) {
+    SumBounds& sum = enclosures.sums[k];
+    if (std::isfinite(sum.upper - sum.lower)) continue;
+    if ((work += solve) > kMostWork) return;
+    std::vector<std::pair<int, double>> terms;
+    for (Eigen::Index c = 0; c < sums[k].coefficients.size(); ++c) {
+      if (sums[k].coefficients[c] != 0) terms.emplace_back(static_cast<int>(c), sums[k].coefficients[c]);
+    }
+    const auto value = settle(sums[k].state, sums[k].bases, {std::move(terms), 1});
+    if (!value) continue;
+    const exact::Enclosure bounds = exact::enclose(*value);
+    sum = {bounds.lower, bounds.upper};
   }
 }
 

@@ -159,7 +159,7 @@ class Disks(ProgramTest):
         for command in commands:
             with open("/dev/full", "w", encoding="utf-8") as full:
                 done = subprocess.run([program.INDET, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,
-                                      timeout=120, check=False)
+                                      timeout=120, check=False, cwd=self.folder)
             self.assertEqual(done.returncode, 1, command)
             self.assertIn("No space left on device", done.stderr)
 
