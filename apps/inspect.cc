@@ -24,6 +24,7 @@
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
+#include "apps/statistics.h"
 #include "apps/wording.h"
 #include "libindet/io/balance.h"
 #include "libindet/io/file_kind.h"
@@ -54,13 +55,6 @@ template <class Values>
 Extremes extremes(const Values& values) {
   Extremes result;
   for (const double value : values) result.add(value);
-  return result;
-}
-
-/// The largest value, infinite or not, of those that are known; 0 if there is none.
-double largest(const Eigen::VectorXd& values) {
-  double result = 0;
-  for (const double value : values) result = std::max(result, std::isnan(value) ? 0.0 : value);
   return result;
 }
 
@@ -119,10 +113,10 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                            {"extremal_states", to_string(r.state_kind)},
                            {"states_of", to_string(r.states_of)},
                            {"duals", r.duals.contacts.size()},
-                           {"mean_delta_R", json_number(extremes(r.delta_R).mean())},
-                           {"max_delta_R", json_number(largest(r.delta_R))},
-                           {"mean_delta_T", json_number(extremes(r.delta_T).mean())},
-                           {"max_delta_T", json_number(largest(r.delta_T))}});
+                           {"mean_delta_R", json_number(statistics(r.delta_R).mean)},
+                           {"max_delta_R", json_number(statistics(r.delta_R).max)},
+                           {"mean_delta_T", json_number(statistics(r.delta_T).mean)},
+                           {"max_delta_T", json_number(statistics(r.delta_T).max)}});
     if (has_smallest_distances(r)) json["ranges"]["smallest_distances"] = smallest_distances_to_json(r);
     if (r.calibration >= 0) json["ranges"]["estimates"] = estimates_to_json(r);
     if (r.reactions.count() > 0) json["ranges"]["reactions"] = reactions_to_json(packing, r.reactions);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -88,6 +91,13 @@ int run(int argc, char** argv) {
   return kUsage;
 }
 
+/// What was printed may have been lost, on a full device: then the status says so.
+void flush_output() {
+  std::cout.flush();
+  const bool lost = !std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (lost) throw LibraryError(std::string("standard output could not be written: ") + std::strerror(errno));
+}
+
 }  // namespace
 }  // namespace indet::app
 
@@ -100,7 +110,9 @@ int main(int argc, char** argv) {
     std::_Exit(app::kInternalError);  // threads of OpenBLAS that wait for memory would not end
   }
   try {
-    return app::run(argc, argv);
+    const int status = app::run(argc, argv);
+    app::flush_output();
+    return status;
   } catch (const Interrupted&) {
     complain("interrupted; nothing was written");
     return 128 + app::caught_signal();

@@ -15,31 +15,12 @@
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
 #include "apps/sample_report.h"
+#include "apps/statistics.h"
 #include "apps/wording.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet::app {
 namespace {
-
-struct Statistics {
-  double mean = std::nan("");
-  double max = std::nan("");
-};
-
-/// NaN entries (values that were not found) are left out.
-Statistics statistics(const Eigen::VectorXd& values) {
-  Statistics result;
-  double sum = 0;
-  int count = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    sum += value;
-    ++count;
-    if (!(result.max >= value)) result.max = value;
-  }
-  if (count > 0) result.mean = sum / count;
-  return result;
-}
 
 /// How firmly the values stand, in force units. Values that are infinite, or were not found, are left out.
 struct Firmness {

@@ -32,19 +32,22 @@ bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& s
   return work.value < -kWiden * kWiden * error;
 }
 
-bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& structure,
-                      std::span<const double> y, std::span<const double> y_1) {
-  const std::vector<double> power = transposed_product(structure, y);
-  double worst = 0, largest = 0;
-  for (const double value : power) worst = std::max(worst, -value);
-  for (const double value : y) largest = std::max(largest, std::abs(value));
-  for (const double noise : {1e-15, 1e-14, 1e-13, 1e-12}) {
-    const double epsilon = 2 * worst + noise * largest;
-    std::vector<double> sum(y.begin(), y.end());
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += epsilon * y_1[i];
-    if (proves_emptiness(problem, structure, sum)) return true;
+std::optional<std::vector<double>> proven_motion(const EquilibriumProblem& problem,
+                                                 const BlockStructure& structure, std::span<const double> y,
+                                                 std::span<const double> y_1) {
+  double largest = 0;
+  for (const double velocity : y) largest = std::max(largest, std::abs(velocity));
+  std::vector<double> scaled(y.begin(), y.end());
+  for (double& velocity : scaled) velocity /= largest;
+  double worst = 0;
+  for (const double power : transposed_product(structure, scaled)) worst = std::max(worst, -power);
+  // The largest leaves the most room for who proves it again.
+  for (const double noise : {1e-12, 1e-13, 1e-14, 1e-15}) {
+    std::vector<double> sum = scaled;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (2 * worst + noise) * y_1[i];
+    if (proves_emptiness(problem, structure, sum)) return sum;
   }
-  return false;
+  return {};
 }
 
 }  // namespace indet::barrier

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "libindet/barrier/block_structure.h"
 #include "libindet/equilibrium/equilibrium_problem.h"
@@ -15,8 +17,11 @@ namespace indet::barrier {
 bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& structure,
                       std::span<const double> y);
 
-/// The same of y + ε y₁ with an ε that is large enough for the rounding of Aᵀ y.
-bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& structure,
-                      std::span<const double> y, std::span<const double> y_1);
+/// y + ε y₁ with the largest of some ε, from the rounding of Aᵀ y up, of which that holds; y has largest
+/// entry
+/// 1. Nothing if it holds of none.
+std::optional<std::vector<double>> proven_motion(const EquilibriumProblem& problem,
+                                                 const BlockStructure& structure, std::span<const double> y,
+                                                 std::span<const double> y_1);
 
 }  // namespace indet::barrier

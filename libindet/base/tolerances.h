@@ -146,6 +146,10 @@ inline constexpr double kRayEntry = 1e-9;
 inline constexpr double kPrimalResidual = 1e-10;
 inline constexpr double kDualResidual = 1e-9;
 
+/// How wide the enclosure of a certified value may be, relative to the larger of |value| and the load at its
+/// contact (range/promise.h).
+inline constexpr double kCertifiedWidth = 1e-6;
+
 /// A range up to this wide (internal unit) is a point: no force has a relative position R*,
 /// T* in it.
 inline constexpr double kPointRange = 1e-9;

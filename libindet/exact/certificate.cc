@@ -210,9 +210,40 @@ int Motion::edge_power(int edge) const { return sgn(dot(problem_->edge(edge), ve
 
 int Motion::load_power() const { return -sgn(dot(load_column(*problem_), velocity_.numerator)); }
 
-bool proves_emptiness(const ContactProblem& problem, std::span<const double> guess,
-                      std::span<const Closing> closings, double zero) {
-  const std::vector<bool> open = open_after(problem, closings);
+void Motion::open(std::span<const int> edges, const Motion& other) {
+  mpq_class most = 0;
+  for (const int e : edges) {
+    const mpq_class resisted(-dot(problem_->edge(e), velocity_.numerator), velocity_.denominator);
+    const mpq_class opened(dot(problem_->edge(e), other.velocity_.numerator), other.velocity_.denominator);
+    most = std::max(most, mpq_class(resisted / opened));
+  }
+  if (most == 0) return;
+  most.canonicalize();
+  // v + most u over the product of all denominators
+  const mpz_class own = other.velocity_.denominator * most.get_den();
+  const mpz_class added = velocity_.denominator * most.get_num();
+  for (std::size_t i = 0; i < velocity_.numerator.size(); ++i)
+    velocity_.numerator[i] = own * velocity_.numerator[i] + added * other.velocity_.numerator[i];
+  velocity_.denominator *= own;
+}
+
+std::vector<double> Motion::rounded() const {
+  mpz_class largest = 1;
+  for (const mpz_class& velocity : velocity_.numerator) largest = std::max(largest, mpz_class(abs(velocity)));
+  std::vector<double> result;
+  for (const mpz_class& velocity : velocity_.numerator) {
+    mpq_class share(velocity, largest);
+    share.canonicalize();
+    result.push_back(share.get_d());
+  }
+  return result;
+}
+
+namespace {
+
+/// The motion nearest to the guess under which the load does work and no open edge resists.
+std::optional<Motion> falling_motion(const ContactProblem& problem, std::span<const double> guess,
+                                     const std::vector<bool>& open, double zero) {
   std::vector<int> still;
   for (int e = 0; e < problem.edges(); ++e) {
     if (!open[static_cast<std::size_t>(e)]) continue;
@@ -224,12 +255,58 @@ bool proves_emptiness(const ContactProblem& problem, std::span<const double> gue
     const double mu = problem.is_slack(e) ? 0 : problem.mu(e / 2).get_d();
     if (std::abs(power) <= zero * std::max(1.0, mu)) still.push_back(e);
   }
-  const auto motion = Motion::repair(problem, still, true, guess);
-  if (!motion || motion->load_power() <= 0) return false;
+  auto motion = Motion::repair(problem, still, true, guess);
+  if (!motion || motion->load_power() <= 0) return {};
   for (int e = 0; e < problem.edges(); ++e) {
-    if (open[static_cast<std::size_t>(e)] && motion->edge_power(e) < 0) return false;
+    if (open[static_cast<std::size_t>(e)] && motion->edge_power(e) < 0) return {};
   }
-  return true;
+  return motion;
+}
+
+std::vector<int> numbers_of_true(const std::vector<bool>& chosen) {
+  std::vector<int> numbers;
+  for (std::size_t e = 0; e < chosen.size(); ++e) {
+    if (chosen[e]) numbers.push_back(static_cast<int>(e));
+  }
+  return numbers;
+}
+
+/// Under which the edges of the closing open, the load does no work, and all that stay open rest.
+std::optional<Motion> closing_motion(const ContactProblem& problem, const Closing& closing,
+                                     const std::vector<bool>& open_after_it) {
+  auto motion = Motion::repair(problem, numbers_of_true(open_after_it), false, closing.motion);
+  const bool opens = motion && std::all_of(closing.edges.begin(), closing.edges.end(),
+                                           [&](int e) { return motion->edge_power(e) > 0; });
+  return opens ? std::move(motion) : std::nullopt;
+}
+
+}  // namespace
+
+bool proves_emptiness(const ContactProblem& problem, std::span<const double> guess, double zero) {
+  return falling_motion(problem, guess, open_after(problem, {}), zero).has_value();
+}
+
+std::optional<std::vector<double>> find_falling_motion(const ContactProblem& problem,
+                                                       std::span<const double> guess,
+                                                       std::span<const Closing> closings, double zero) {
+  double largest = 0;
+  for (const double velocity : guess) largest = std::max(largest, std::abs(velocity));
+  std::vector<double> clean(guess.begin(), guess.end());
+  for (double& velocity : clean) {
+    if (std::abs(velocity) <= zero * largest) velocity = 0;
+  }
+  const std::vector<bool> open = open_after(problem, closings);
+  std::optional<Motion> motion = falling_motion(problem, clean, open, zero);
+  if (!motion) motion = falling_motion(problem, guess, open, zero);
+  for (std::size_t left = closings.size(); motion && left > 0; --left) {
+    const Closing& closing = closings[left - 1];
+    const auto opening = closing_motion(problem, closing, open_after(problem, closings.first(left)));
+    if (!opening) return {};
+    motion->open(closing.edges, *opening);
+  }
+  if (!motion) return {};
+  std::vector<double> rounded = motion->rounded();
+  return proves_emptiness(problem, rounded, zero) ? std::optional(std::move(rounded)) : std::nullopt;
 }
 
 bool proves_ray(const ContactProblem& problem, std::span<const double> guess, double zero) {
@@ -248,28 +325,15 @@ bool proves_ray(const ContactProblem& problem, std::span<const double> guess, do
 
 bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
                       std::optional<int> final_rank, std::size_t most_rows) {
-  std::vector<bool> open = open_after(problem, {});
-  const auto open_edges = [&] {
-    std::vector<int> edges;
-    for (int e = 0; e < problem.edges(); ++e) {
-      if (open[static_cast<std::size_t>(e)]) edges.push_back(e);
-    }
-    return edges;
-  };
-  for (const Closing& closing : closings) {
-    for (const int e : closing.edges) open[static_cast<std::size_t>(e)] = false;
-    const auto motion = Motion::repair(problem, open_edges(), false, closing.motion);
-    if (!motion) return false;
-    const bool opens = std::all_of(closing.edges.begin(), closing.edges.end(),
-                                   [&](int e) { return motion->edge_power(e) > 0; });
-    if (!opens) return false;
+  for (std::size_t n = 1; n <= closings.size(); ++n) {
+    if (!closing_motion(problem, closings[n - 1], open_after(problem, closings.first(n)))) return false;
   }
   if (!final_rank) return true;
   // Rank: `final_rank` rows are independent modulo a prime, hence independent; each of the others needs a
   // motion, with this row and independent ones alone, under which every open edge rests and the load does no
   // work.
   std::vector<const IntegerColumn*> columns;
-  for (const int e : open_edges()) columns.push_back(&problem.edge(e));
+  for (const int e : numbers_of_true(open_after(problem, closings))) columns.push_back(&problem.edge(e));
   const PrimeField field(large_prime(0));
   const ModularLu lu(field, problem.rows(), columns);
   if (lu.rank() != *final_rank) return false;

@@ -26,6 +26,11 @@ class Motion {
   int edge_power(int edge) const;
   /// Sign of the power of the load.
   int load_power() const;
+  /// Adds the smallest multiple of the other motion with which no force along these edges has a negative
+  /// power. Precondition: the other opens at each of them.
+  void open(std::span<const int> edges, const Motion& other);
+  /// In double precision, largest entry 1.
+  std::vector<double> rounded() const;
 
  private:
   Motion(const ContactProblem& problem, RationalVector velocity)
@@ -43,9 +48,15 @@ struct Closing {
 /// True if the motion nearest to the guess that opens or rests at every edge and lets the load do work
 /// exists, so that the packing cannot stand (Farkas). Edges whose power in the guess is below `zero` are held
 /// at exactly 0.
-/// Edges of `closings` are known to carry nothing and may resist.
-bool proves_emptiness(const ContactProblem& problem, std::span<const double> guess,
-                      std::span<const Closing> closings, double zero);
+bool proves_emptiness(const ContactProblem& problem, std::span<const double> guess, double zero);
+
+/// A motion, one velocity a row and largest entry 1, of which proves_emptiness() holds. The guess may be
+/// resisted by edges of `closings`: multiples of the motions that close them are added. Entries of the guess
+/// up to `zero`, relative to the largest, are taken for rounding where the proof does without them. Nothing
+/// if a closing or the motion cannot be proven.
+std::optional<std::vector<double>> find_falling_motion(const ContactProblem& problem,
+                                                       std::span<const double> guess,
+                                                       std::span<const Closing> closings, double zero);
 
 /// True if strengths near `guess` (one an edge) that are exactly 0 where the guess is below `zero`, and
 /// positive elsewhere, balance themselves: a direction in ker c ∩ K. It then grows each component whose sign

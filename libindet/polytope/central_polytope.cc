@@ -36,7 +36,8 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
   polytope.interior = decision.interior;
   polytope.ray = decision.ray;
   polytope.unbounded = std::move(decision.unbounded);
-  if (decision.status == PolytopeStatus::kEmpty) set_motion(polytope.problem, decision.motion, polytope);
+  if (decision.status == PolytopeStatus::kEmpty)
+    set_motion(packing, exact::ContactProblem(packing), decision.proven_motion, polytope);
   if (decision.status != PolytopeStatus::kBounded && decision.status != PolytopeStatus::kPoint)
     return polytope;
   auto central = std::make_shared<const CentralPolytope>(polytope.problem, decision.independent_rows);

@@ -38,7 +38,8 @@ struct InteriorSet {
 
 /// Poses the problem again with ever more edges closed, until F is empty (returns nothing) or
 /// full-dimensional in what is left.
-std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, ForcePolytope& polytope) {
+std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, const LpOptions& options,
+                                                    ForcePolytope& polytope) {
   const exact::ContactProblem& exact = *polytope.exact;
   std::vector<exact::Closing> closings;
   for (;;) {
@@ -47,10 +48,10 @@ std::optional<InteriorSet> reduce_to_full_dimension(const LpOptions& options, Fo
     polytope.rank_ambiguous = polytope.rank_ambiguous || null_space.ambiguous;
     polytope.doubtful = polytope.doubtful || null_space.ambiguous;
     const auto prove_emptiness = [&](const Eigen::VectorXd& motion) {
-      set_motion(problem, motion, polytope);
-      polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, {}) ||
-                          !exact::proves_emptiness(exact, motion_on_exact_rows(exact, problem, motion),
-                                                   closings, tolerance::kExactZero);
+      const std::vector<double> guess = motion_on_exact_rows(exact, problem, motion);
+      const auto proven = exact::find_falling_motion(exact, guess, closings, tolerance::kExactZero);
+      set_motion(packing, exact, proven.value_or(guess), polytope);
+      polytope.doubtful = polytope.doubtful || !proven;
     };
     if (null_space.unbalanced.size() > 0) {
       prove_emptiness(null_space.unbalanced);
@@ -147,7 +148,7 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
       std::make_shared<NullSpace>(compute_null_space(polytope.natural.matrix, polytope.natural.load()));
   polytope.null_space = polytope.natural_null_space;
   polytope.exact = std::make_shared<exact::ContactProblem>(packing);
-  const std::optional<InteriorSet> interior = reduce_to_full_dimension(options, polytope);
+  const std::optional<InteriorSet> interior = reduce_to_full_dimension(packing, options, polytope);
   if (!interior) return polytope;
 
   const SlopeView& view = interior->view;

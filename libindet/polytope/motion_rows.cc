@@ -1,9 +1,6 @@
 #include "libindet/polytope/motion_rows.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "libindet/base/tolerances.h"
+#include "libindet/exact/body_motion.h"
 
 namespace indet {
 namespace {
@@ -28,36 +25,14 @@ Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::B
   return result;
 }
 
-void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope) {
-  polytope.motion.setZero(problem.disks, 3);
-  const bool walls_move = std::any_of(problem.rows.begin(), problem.rows.end(),
-                                      [](const EquilibriumRow& row) { return row.body.is_wall(); });
-  polytope.wall_motion.setZero(walls_move ? problem.walls : 0, 2);
-  polytope.bound_multipliers.setZero(static_cast<Eigen::Index>(problem.bounds.size()));
-  const bool cell_moves = std::any_of(problem.rows.begin(), problem.rows.end(),
-                                      [](const EquilibriumRow& row) { return row.body.is_cell(); });
-  const double largest = rows.lpNorm<Eigen::Infinity>();
-  if (cell_moves) {
-    polytope.cell_motion = problem.compression_of(rows / largest).unaryExpr([](double rate) {
-      return std::abs(rate) > tolerance::kMotionEntry ? rate : 0;
-    });
-  }
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    if (row.bound >= 0) {
-      add_multiplier(problem, row.bound, rows[i] / largest,
-                     [&](int bound, double value) { polytope.bound_multipliers[bound] += value; });
-      continue;
-    }
-    if (row.body.is_cell()) continue;
-    // Entries at the level of rounding say nothing about which body moves.
-    const double velocity = std::abs(rows[i] / largest) > tolerance::kMotionEntry ? rows[i] / largest : 0;
-    if (row.body.is_wall()) {
-      polytope.wall_motion(row.body.wall_id().value(), row.component) = velocity;
-    } else {
-      polytope.motion(row.body.disk_id().value(), row.component) = velocity;
-    }
-  }
+void set_motion(const Packing& packing, const exact::ContactProblem& exact, std::span<const double> rows,
+                ForcePolytope& polytope) {
+  const exact::BodyMotion motion = exact::on_bodies(packing, exact, rows);
+  polytope.motion = motion.disks;
+  polytope.wall_motion = motion.walls;
+  polytope.cell_motion.resize(motion.cell.rows(), 2);
+  polytope.cell_motion = motion.cell;
+  polytope.bound_multipliers = motion.bounds;
 }
 
 std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,

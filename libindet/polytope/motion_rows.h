@@ -16,8 +16,10 @@ namespace indet {
 Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::BlockStructure& structure,
                              std::span<const double> y);
 
-/// Spreads a motion of the equations' rows over disks, walls, the cell and bounds; largest entry 1.
-void set_motion(const EquilibriumProblem& problem, const Eigen::VectorXd& rows, ForcePolytope& polytope);
+/// Stores a motion of the exact problem's rows, on disks, walls, the cell and bounds, as the one of the
+/// polytope.
+void set_motion(const Packing& packing, const exact::ContactProblem& exact, std::span<const double> rows,
+                ForcePolytope& polytope);
 
 /// A motion of the equations' rows (one velocity a row), on the rows of the exact problem, largest entry 1.
 std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,

@@ -76,10 +76,16 @@ class ExactProofs {
       closings_.push_back({step.half_planes, motion_on_exact_rows(exact(), before, step.motion)});
     }
   }
-  bool is_empty(const SparseDecision& decision) {
-    return !is_lost_ && rows_ <= most_rows_ && exact::proves_structure(exact(), closings_, {}) &&
-           exact::proves_emptiness(exact(), motion_on_exact_rows(exact(), decision.problem, decision.motion),
-                                   closings_, tolerance::kExactZero);
+  void prove_emptiness(SparseDecision& decision) {
+    if (is_lost_ || rows_ > most_rows_) return;
+    auto motion = exact::find_falling_motion(exact(), on_exact_rows(decision.problem, decision.motion),
+                                             closings_, tolerance::kExactZero);
+    if (!motion) return;
+    decision.proof = Proof::kExact;
+    decision.proven_motion = std::move(*motion);
+  }
+  std::vector<double> on_exact_rows(const EquilibriumProblem& problem, const Eigen::VectorXd& motion) {
+    return motion_on_exact_rows(exact(), problem, motion);
   }
   /// The rank, and that the equations do not contradict each other.
   bool has_structure(const SparseDecision& decision) {
@@ -180,7 +186,7 @@ SparseDecision decide_sparsely(const Packing& packing, int exact_rows) {
     };
     if (equations.unbalanced.size() > 0) {
       set_empty(equations.unbalanced);
-      if (exact.is_empty(decision)) decision.proof = Proof::kExact;
+      exact.prove_emptiness(decision);
       return decision;
     }
     const BlockStructure structure(problem, decision.independent_rows);
@@ -194,12 +200,13 @@ SparseDecision decide_sparsely(const Packing& packing, int exact_rows) {
       case Feasibility::Kind::kEmpty: {
         set_empty(on_equations(problem, structure, feasibility.y));
         const Boundedness boundedness = barrier::find_boundedness(structure, cholesky);
-        if (decision.steps.empty() && boundedness.bounded &&
-            barrier::proves_emptiness(problem, structure, feasibility.y, boundedness.y)) {
-          decision.proof = Proof::kFloating;
-        } else if (exact.is_empty(decision)) {
-          decision.proof = Proof::kExact;
+        if (decision.steps.empty() && boundedness.bounded) {
+          if (const auto y = barrier::proven_motion(problem, structure, feasibility.y, boundedness.y)) {
+            decision.proof = Proof::kFloating;
+            decision.proven_motion = exact.on_exact_rows(problem, on_equations(problem, structure, *y));
+          }
         }
+        if (decision.proof == Proof::kNone) exact.prove_emptiness(decision);
         return decision;
       }
       case Feasibility::Kind::kClosed:

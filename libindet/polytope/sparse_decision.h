@@ -48,8 +48,10 @@ struct SparseDecision {
 
   Eigen::VectorXd interior;  ///< x > 0 of a state (edges of `problem`), if F is not empty
   /// If F is empty: a motion of the rows, largest entry 1, Aᵀ motion ≥ 0 and b·motion < 0: the load does work
-  /// and no edge resists. ForcePolytope::motion spreads it over the bodies.
+  /// and no edge resists, but for rounding and closed edges.
   Eigen::VectorXd motion;
+  /// The same as it is proven, where it is, on the rows of exact::ContactProblem. No edge at all resists it.
+  std::vector<double> proven_motion;
   Eigen::VectorXd ray;  ///< if unbounded: x ≥ 0, A x = 0, Σx = 1, of maximal support
   /// If unbounded: what proves the ray by bounds of all rounding errors; nothing if these do not.
   std::shared_ptr<const UnboundedPolytope> unbounded;

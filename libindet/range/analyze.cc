@@ -20,8 +20,10 @@
 #include "libindet/range/distance_search.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/estimated_ranges.h"
+#include "libindet/range/exact_ends.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/extremal_search.h"
+#include "libindet/range/open_ends.h"
 #include "libindet/range/reactions.h"
 
 namespace indet {
@@ -298,6 +300,11 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
       enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);
+  if (enclosures.proven && polytope.status == PolytopeStatus::kUnbounded)
+    close_open_ends(packing, contacts, extrema, reactions, interval_options(options, "enclosures"),
+                    enclosures);
+  if (enclosures.proven && polytope.exact)
+    settle_exactly(packing, polytope, extrema, reactions.optima, enclosures);
   stopwatch.mark("enclosures");
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);

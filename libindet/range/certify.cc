@@ -6,12 +6,15 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/range/barrier_ranges.h"
+#include "libindet/range/promise.h"
 
 namespace indet {
 namespace {
 
 /// Value, enclosure and outcome of one objective.
-void certify_objective(const Extrema& extrema, double weight, Eigen::Index i, int column, Certified& result) {
+/// `weight`: 1 mg, `load`: of the contact, both in the scene's units.
+void certify_objective(const Extrema& extrema, double weight, double load, Eigen::Index i, int column,
+                       Certified& result) {
   Outcome& outcome = result.outcome(i, column);
   double& value = result.value(i, column);
   double& lower = result.lower(i, column);
@@ -24,7 +27,8 @@ void certify_objective(const Extrema& extrema, double weight, Eigen::Index i, in
     }
     result.primal_residual(i, column) = extrema.primal_residual(i, column);
     const bool is_precise = result.primal_residual(i, column) <= tolerance::kPrimalResidual &&
-                            result.dual_residual(i, column) <= tolerance::kDualResidual;
+                            result.dual_residual(i, column) <= tolerance::kDualResidual &&
+                            upper - lower <= promised_width(value, load);
     if (!is_precise) outcome = Outcome::kImprecise;
   } else if (outcome == Outcome::kEnclosed) {
     const EnclosedValue enclosed = enclosed_value(lower, upper, extrema.gap, weight);
@@ -42,7 +46,8 @@ void certify_objective(const Extrema& extrema, double weight, Eigen::Index i, in
 
 }  // namespace
 
-Certified certify(const ProblemSummary& problem, const Extrema& extrema, const Enclosures& enclosures) {
+Certified certify(const Packing& packing, const ProblemSummary& problem, const Extrema& extrema,
+                  const Enclosures& enclosures) {
   Certified result;
   result.doubtful = !enclosures.proven;
   result.value.setConstant(extrema.claim.rows(), 4, std::numeric_limits<double>::quiet_NaN());
@@ -54,11 +59,12 @@ Certified certify(const ProblemSummary& problem, const Extrema& extrema, const E
   result.dual_residual = extrema.dual_residual;
   result.residual = extrema.imbalance;
   result.worst_primal_residual = result.worst_dual_residual = 0;
+  const Eigen::VectorXd loads = loads_at_contacts(packing);
   for (Eigen::Index i = 0; i < result.outcome.rows(); ++i) {
     for (int column = 0; column < 4; ++column) {
       if (problem.status != PolytopeStatus::kEmpty && is_left_out(result.outcome(i, column))) continue;
       ++result.objectives;
-      certify_objective(extrema, problem.force_unit, i, column, result);
+      certify_objective(extrema, problem.force_unit, loads[i], i, column, result);
       const Outcome outcome = result.outcome(i, column);
       if (outcome != Outcome::kFailed && outcome != Outcome::kNotRequested) {
         // An interval has neither.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "libindet/packing/packing.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/outcome.h"
@@ -30,9 +31,10 @@ struct Certified {
 };
 
 /// Takes the values and the residuals of their states, or the middle of the interval where there is no state,
-/// lets go of enclosures that rest on a decision about F which is in doubt, and lets the residuals, or the
-/// width of the interval, decide between certified and `imprecise`; then counts outcomes. Where F is empty
-/// all objectives count, and none has an outcome.
-Certified certify(const ProblemSummary& problem, const Extrema& extrema, const Enclosures& enclosures);
+/// lets go of enclosures that rest on a decision about F which is in doubt, and lets residuals and the
+/// width of the enclosure (promise.h), or the width of the interval, decide between certified and
+/// `imprecise`; then counts outcomes. Where F is empty all objectives count, and none has an outcome.
+Certified certify(const Packing& packing, const ProblemSummary& problem, const Extrema& extrema,
+                  const Enclosures& enclosures);
 
 }  // namespace indet

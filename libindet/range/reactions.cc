@@ -268,6 +268,9 @@ Reactions certify_reactions(const FoundReactions& found, const std::vector<SumBo
         r.lower(row, end) = in_doubt && end == 1 ? -kInfinity : r.value(row, end);
         r.upper(row, end) = in_doubt && end == 0 ? kInfinity : r.value(row, end);
       }
+      // Of a finite value without a bound on a side it is not known that it is the extremum.
+      if (std::isfinite(r.value(row, end)) && std::isinf(r.upper(row, end) - r.lower(row, end)))
+        outcome = Outcome::kImprecise;
       if (proven || std::isnan(r.value(row, end))) continue;
       outcome = Outcome::kImprecise;
       r.lower(row, end) = -kInfinity;

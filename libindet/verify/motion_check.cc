@@ -5,9 +5,46 @@
 #include <cmath>
 
 #include "libindet/base/tolerances.h"
+#include "libindet/exact/body_motion.h"
+#include "libindet/exact/certificate.h"
 #include "libindet/verify/cell_motion_check.h"
 
 namespace indet {
+namespace {
+
+/// Aᵀ y ≥ 0 and b·y < 0 by more than sums can be wrong: no motion that rests at some contact.
+bool is_clear(const RebuiltProblem& problem, const Eigen::VectorXd& y) {
+  bool clear = true;
+  problem.for_each_edge(y, [&](int, double, double, const RebuiltProblem::Sum& along) {
+    clear = clear && along.value >= tolerance::kSumOfProof * along.size;
+  });
+  const RebuiltProblem::Sum load = problem.load_product(y);
+  return clear && load.value < -tolerance::kSumOfProof * load.size;
+}
+
+bool is_exact(const Packing& packing, const ForceRanges& ranges) {
+  const exact::ContactProblem problem(packing);
+  const exact::BodyMotion motion{ranges.motion, ranges.wall_motion, ranges.cell_motion,
+                                 ranges.bound_multipliers};
+  return exact::proves_emptiness(problem, exact::on_rows(packing, problem, motion), tolerance::kExactZero);
+}
+
+/// That the motion proves what the file says. Of an outcome in doubt nothing is said.
+void check_proof(const Packing& packing, const ForceRanges& ranges, const RebuiltProblem& problem,
+                 const Eigen::VectorXd& motion, Comparisons& compare) {
+  Eigen::VectorXd y(problem.scene_rows());
+  y << motion, ranges.bound_multipliers;
+  if (is_clear(problem, y)) return;
+  if (ranges.unknowns > tolerance::kMostForPrograms) {
+    compare.leave_unchecked(
+        "that no contact at all resists the motion (it rests at some, and the packing is large)");
+    return;
+  }
+  compare.require(is_exact(packing, ranges),
+                  "motion: no exact motion near to it proves that the packing cannot stand");
+}
+
+}  // namespace
 
 void check_motion(const Packing& packing, const ForceRanges& ranges, const RebuiltProblem& problem,
                   Comparisons& compare) {
@@ -40,8 +77,12 @@ void check_motion(const Packing& packing, const ForceRanges& ranges, const Rebui
   }
   const double power = problem.load_power(motion) + problem.bounds_power(ranges.bound_multipliers);
   const double resisted = problem.smallest_power(motion, ranges.bound_multipliers);
-  compare.require(power > 0, "motion: the load does no work ({})", power);
-  compare.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})", resisted);
+  if (ranges.doubtful) return;
+  const bool falls = compare.require(power > 0, "motion: the load does no work ({})", power);
+  if (compare.require(resisted >= -tolerance::kResistedMotion, "motion: some contact resists it ({})",
+                      resisted) &&
+      falls)
+    check_proof(packing, ranges, problem, motion, compare);
 }
 
 }  // namespace indet

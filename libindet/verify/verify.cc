@@ -9,6 +9,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/range/promise.h"
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/distances_check.h"
@@ -30,7 +31,11 @@ namespace {
 class Verifier {
  public:
   Verifier(const Packing& packing, const ForceRanges& ranges, const ProgressCallback& progress)
-      : packing_(packing), ranges_(ranges), progress_(progress), problem_(packing) {}
+      : packing_(packing),
+        ranges_(ranges),
+        progress_(progress),
+        problem_(packing),
+        loads_(loads_at_contacts(packing)) {}
 
   Verification run() {
     check_problem();
@@ -187,9 +192,17 @@ class Verifier {
     compare_.require(ranges_.dual_residual(contact, column) <= tolerance::kDualResidual,
                      "{}: dual residual {} of a certified value", place,
                      ranges_.dual_residual(contact, column));
+    check_width(contact, column, place);
     const double gap = optimality_gap(component, sign, vertex);
     compare_.add_optimum(gap);
     compare_.require(gap <= allowed_gap(), "{}: the value {} is not optimal (gap {})", place, value, gap);
+  }
+
+  void check_width(int contact, int column, const std::string& place) {
+    const double width = ranges_.upper(contact, column) - ranges_.lower(contact, column);
+    const double allowed = promised_width(ranges_.value(contact, column), loads_[contact]);
+    compare_.require(width <= allowed * (1 + tolerance::kAgreement),
+                     "{}: certified, but its bounds are {} apart, more than {}", place, width, allowed);
   }
 
   bool is_large() const { return ranges_.unknowns > tolerance::kMostForPrograms; }
@@ -389,6 +402,7 @@ class Verifier {
   const ForceRanges& ranges_;
   const ProgressCallback& progress_;
   RebuiltProblem problem_;
+  Eigen::VectorXd loads_;  ///< at each contact (range/promise.h)
   Comparisons compare_;
   double largest_scale_ = 0;             ///< of the states' residuals
   std::int64_t stateless_ = 0;           ///< finite values without a state

@@ -7,6 +7,7 @@ Arguments: the indet executable, the LAMMPS dumps.
 import json
 import pathlib
 import random
+import re
 import resource
 import shutil
 import signal
@@ -145,6 +146,22 @@ class Disks(ProgramTest):
         done = self.mounted("-o size=16k", f"echo old > small/r.h5; '{program.INDET}' analyze {packing} -o small/r.h5 --overwrite; "
                                            "echo status $?; cat small/r.h5; ls -A small")
         self.assertEqual(done.stdout, "status 1\nold\nr.h5\n", done.stderr)
+
+    def test_output_that_is_lost_is_an_error(self):
+        packing = self.packing(groove())
+        ranges = self.folder / "lost.r.h5"
+        subcommands = re.findall(r"^  ([a-z]+) {2,}", subprocess.run([program.INDET, "--help"], capture_output=True, text=True,
+                                                                    check=True).stdout.split("Subcommands:")[-1], re.MULTILINE)
+        self.assertGreater(len(subcommands), 10)
+        commands = [[name, "--help"] for name in subcommands] + [
+            ["--version"], ["analyze", packing, "-o", ranges, "--overwrite"], ["analyze", packing, "-o", ranges, "--overwrite", "--json"],
+            ["inspect", packing], ["inspect", packing, "--json"], ["compare", packing], ["verify", ranges]]
+        for command in commands:
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                done = subprocess.run([program.INDET, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      timeout=120, check=False, cwd=self.folder)
+            self.assertEqual(done.returncode, 1, command)
+            self.assertIn("No space left on device", done.stderr)
 
     def test_a_read_only_folder_is_bad_input(self):
         packing = self.packing(groove())

@@ -21,7 +21,7 @@ RESULTS = ("ranges", "extremal", "equilibrium", "reactions")
 # Results that are not computed a second time. One that leaves this list is progress, one that joins it is a loss.
 GUARDED_BY_THE_DIGEST_ALONE = {
     "equilibrium@largest_rejected", "equilibrium@rank_ambiguous", "equilibrium@rank_gap",
-    "equilibrium@smallest_accepted", "ranges/sensitivity", "ranges/unique", "ranges/upper", "reactions/upper"}
+    "equilibrium@smallest_accepted", "ranges/sensitivity", "ranges/unique", "reactions/upper"}
 
 STUDENT = 2.3646242515927844  # 97.5 % quantile with 7 degrees of freedom
 

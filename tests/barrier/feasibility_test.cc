@@ -88,11 +88,13 @@ TEST(Feasibility, FindsAMotionOfWhatCannotStandAndProvesIt) {
   EXPECT_LT(y.dot(pyramid.problem.load()), -1e-3);
   // Some contact rests under the motion; moved a little it is a proof.
   ASSERT_TRUE(pyramid.boundedness.bounded);
-  EXPECT_TRUE(
-      proves_emptiness(pyramid.problem, *pyramid.structure, pyramid.feasibility.y, pyramid.boundedness.y));
+  const auto proven =
+      proven_motion(pyramid.problem, *pyramid.structure, pyramid.feasibility.y, pyramid.boundedness.y);
+  ASSERT_TRUE(proven);
+  EXPECT_TRUE(proves_emptiness(pyramid.problem, *pyramid.structure, *proven));
   std::vector<double> back = pyramid.feasibility.y;
   for (double& velocity : back) velocity = -velocity;
-  EXPECT_FALSE(proves_emptiness(pyramid.problem, *pyramid.structure, back, pyramid.boundedness.y));
+  EXPECT_FALSE(proven_motion(pyramid.problem, *pyramid.structure, back, pyramid.boundedness.y));
 }
 
 TEST(Feasibility, LeavesAHairlineUndecidedOrIsRight) {

@@ -95,13 +95,12 @@ TEST(Certificate, AMotionWithRoundingBecomesExact) {
   motion[static_cast<std::size_t>(problem.row(Body::disk(DiskId(0)), 0))] = std::cos(0.3) + 1e-13;
   motion[static_cast<std::size_t>(problem.row(Body::disk(DiskId(0)), 1))] = -std::sin(0.3);
   motion[static_cast<std::size_t>(problem.row(Body::disk(DiskId(0)), 2))] = -1;
-  EXPECT_TRUE(proves_emptiness(problem, motion, {}, 1e-9));
+  EXPECT_TRUE(proves_emptiness(problem, motion, 1e-9));
   for (double& velocity : motion) velocity = -velocity;
-  EXPECT_FALSE(proves_emptiness(problem, motion, {}, 1e-9)) << "uphill";
+  EXPECT_FALSE(proves_emptiness(problem, motion, 1e-9)) << "uphill";
   motion = {0, 1, 0};
-  EXPECT_FALSE(proves_emptiness(problem, motion, {}, 1e-9)) << "away from the load";
-  EXPECT_FALSE(
-      proves_emptiness(ContactProblem(zoo::wedge(0.3, 0.5)), std::vector<double>{0, -1, 0}, {}, 1e-9));
+  EXPECT_FALSE(proves_emptiness(problem, motion, 1e-9)) << "away from the load";
+  EXPECT_FALSE(proves_emptiness(ContactProblem(zoo::wedge(0.3, 0.5)), std::vector<double>{0, -1, 0}, 1e-9));
 }
 
 TEST(Certificate, TellsARayFromNearlyOne) {

@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "libindet/range/analyze.h"
+#include "libindet/range/promise.h"
 #include "libindet/verify/affine_hull.h"
 #include "libindet/verify/exact_check.h"
 #include "tests/support/body_variants.h"
 #include "tests/support/periodic_lattice.h"
+#include "tests/support/scene_builder.h"
 #include "tests/support/zoo.h"
 #include "tests/verify/first_message.h"
 
@@ -87,6 +91,99 @@ TEST(VerifyRanges, FixedDisksDoNotMove) {
   EXPECT_TRUE(verify_ranges(packing, wrong).passed());
   wrong.motion(1, 0) = 0.5;
   expect_contradiction(packing, wrong, "disk 2 is fixed, but moves");
+}
+
+/// A disk between two walls, of which rounding has turned one by so little that forces grow along a ray on
+/// which T of contact 0 grows by 6e-17 of R.
+Packing disk_between_nearly_opposite_walls() {
+  Packing packing = zoo::empty_scene();
+  packing.gravity = {0.3, -1};
+  const DiskId disk = zoo::add_disk(packing, {0, 0});
+  for (const Vector2& normal : {Vector2(1, 0), Vector2(-1, 1.2246467991473532e-16)})
+    zoo::touch(packing, disk, Body::wall(zoo::add_wall(packing, -normal, normal)), 10);
+  return packing;
+}
+
+TEST(VerifyRanges, AValueWithoutABoundIsNotCertified) {
+  const Packing packing = disk_between_nearly_opposite_walls();
+  const ForceRanges ranges = analyze(packing);
+  EXPECT_EQ(ranges.upper(0, kMaxT), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(ranges.outcome(0, kMaxT), Outcome::kImprecise) << ranges.value(0, kMaxT);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    for (int column = 0; column < 4; ++column)
+      EXPECT_TRUE(ranges.outcome(i, column) != Outcome::kOptimal ||
+                  std::isfinite(ranges.upper(i, column) - ranges.lower(i, column)));
+  }
+  EXPECT_TRUE(verify_ranges(packing, ranges).passed()) << first_message(verify_ranges(packing, ranges));
+  ForceRanges wrong = ranges;
+  wrong.outcome(0, kMaxT) = Outcome::kOptimal;
+  wrong.certified += 1;
+  wrong.imprecise -= 1;
+  expect_contradiction(packing, wrong, "certified, but its bounds are inf apart");
+}
+
+/// Certified values against rational arithmetic, relative to the loads at their contacts; returns how many.
+int expect_promise_is_held(const Packing& packing, const ForceRanges& ranges) {
+  const ExactCheck exact = check_exactly(packing, ranges);
+  const Eigen::VectorXd loads = loads_at_contacts(packing);
+  int certified = 0;
+  for (Eigen::Index i = 0; i < ranges.outcome.rows(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      if (ranges.outcome(i, column) != Outcome::kOptimal) continue;
+      ++certified;
+      const double middle = exact.lower(i, column) / 2 + exact.upper(i, column) / 2;
+      EXPECT_NEAR(ranges.value(i, column), middle, 1.001 * promised_width(middle, loads[i]))
+          << i << ' ' << column;
+      EXPECT_LE(ranges.lower(i, column), exact.upper(i, column));
+      EXPECT_GE(ranges.upper(i, column), exact.lower(i, column));
+    }
+  }
+  return certified;
+}
+
+TEST(VerifyRanges, CertifiedValuesAreRightRelativeToTheLoadsAtTheirContacts) {
+  int finite = 0, certified = 0, unbounded = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Packing packing = zoo::random_pile(seed, 5, seed % 2 == 0 ? 1 : 0.5);
+    // Some are light.
+    for (std::size_t i = 0; i < packing.disks.size(); i += 2)
+      packing.disks[i].mass *= seed % 4 < 2 ? 1e-10 : 1;
+    const ForceRanges ranges = analyze(packing);
+    certified += expect_promise_is_held(packing, ranges);
+    finite += static_cast<int>(ranges.value.isFinite().count());
+    unbounded += ranges.status == PolytopeStatus::kUnbounded ? 1 : 0;
+    EXPECT_TRUE(verify_ranges(packing, ranges).passed())
+        << seed << ": " << first_message(verify_ranges(packing, ranges));
+  }
+  EXPECT_GT(unbounded, 2);
+  EXPECT_GT(certified, 0.9 * finite);
+}
+
+TEST(VerifyRanges, WhatIsStoredOfAMotionIsWhatIsProven) {
+  // A disk on a floor that is tilted by so little rolls down (1, −t, −1) all the same.
+  for (const double t : {2e-10, 5e-10, 9e-10}) {
+    const Packing packing = zoo::disk_on_incline(t, 0.5);
+    for (const Method method : {Method::kLp, Method::kBarrier}) {
+      AnalyzeOptions options;
+      options.method = method;
+      const ForceRanges ranges = analyze(packing, options);
+      ASSERT_EQ(ranges.status, PolytopeStatus::kEmpty);
+      EXPECT_FALSE(ranges.doubtful);
+      EXPECT_NEAR(std::abs(ranges.motion(0, 1) / t), 1, 1e-6) << t;
+      EXPECT_TRUE(verify_ranges(packing, ranges).passed()) << first_message(verify_ranges(packing, ranges));
+      ForceRanges wrong = ranges;
+      wrong.motion(0, 1) = 0;
+      expect_contradiction(packing, wrong, "the load does no work");
+      wrong.motion(0, 1) = -t;
+      wrong.motion(0, 2) *= -1;
+      expect_contradiction(packing, wrong, "some contact resists it");
+      wrong = ranges;
+      wrong.motion.row(0) << 1e-11, -1, 0;
+      wrong.motion(0, 1) =
+          -1e-10;  // resisted by less than is told from rounding, and by no other motion near
+      expect_contradiction(packing, wrong, "no exact motion near to it");
+    }
+  }
 }
 
 TEST(VerifyRanges, AcceptsLoadedWalls) {
