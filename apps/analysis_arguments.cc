@@ -7,8 +7,9 @@
 #include <sstream>
 #include <vector>
 
-#include "apps/configuration.h"
 #include "apps/estimate_arguments.h"
+#include "apps/numbers.h"
+#include "libindet/base/printable.h"
 
 namespace indet::app {
 namespace {
@@ -24,7 +25,8 @@ std::optional<int> parse_count(const std::string& text) {
 
 [[noreturn]] void refuse_contacts(const std::string& text) {
   throw UsageError(fmt::format(
-      "--contacts {}: expected all, sample:K (K contacts drawn at random), or a list like 3,7,12-20", text));
+      "--contacts {}: expected all, sample:K (K contacts drawn at random), or a list like 3,7,12-20",
+      excerpt(text)));
 }
 
 }  // namespace
@@ -32,7 +34,8 @@ std::optional<int> parse_count(const std::string& text) {
 std::vector<int> parse_contact_list(const std::string& option, const std::string& whole,
                                     const std::string& text, int contacts) {
   const auto refuse = [&] {
-    throw UsageError(fmt::format("{} {}: expected a list of contacts like 3,7,12-20", option, whole));
+    throw UsageError(
+        fmt::format("{} {}: expected a list of contacts like 3,7,12-20", option, excerpt(whole)));
   };
   std::vector<int> list;
   std::istringstream items(text);
@@ -43,7 +46,7 @@ std::vector<int> parse_contact_list(const std::string& option, const std::string
     if (!first || !last || *last < *first) refuse();
     if (*last >= contacts) {
       throw UsageError(fmt::format("{} {}: there is no contact {}; the packing has {}, numbered from 0",
-                                   option, whole, *last, counted(contacts, "contact")));
+                                   option, excerpt(whole), *last, counted(contacts, "contact")));
     }
     for (int contact = *first; contact <= *last; ++contact) list.push_back(contact);
   }

@@ -18,6 +18,7 @@
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/ranges_report.h"
+#include "apps/say.h"
 #include "apps/wording.h"
 #include "libindet/base/counted.h"
 #include "libindet/io/packing_file.h"
@@ -98,8 +99,7 @@ int run(const AnalyzeCommand& options, const Context& context) {
   } else if (context.prints_report()) {
     print_report(packing, ranges, output.string());
     if (analysis.duals.kind != DualChoice::Kind::kNone && !ranges.duals.are_kept())
-      fmt::print(
-          "no multipliers stored: there are none without an analytic centre, nor where rounding hides which "
+      say("no multipliers stored: there are none without an analytic centre, nor where rounding hides which "
           "edges are closed\n");
   }
   if (ranges.status == PolytopeStatus::kEmpty) return ranges.doubtful ? kUncertain : kNoAdmissibleState;

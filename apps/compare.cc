@@ -12,9 +12,10 @@
 
 #include "apps/analysis_arguments.h"
 #include "apps/command.h"
-#include "apps/configuration.h"
+#include "apps/numbers.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
+#include "apps/say.h"
 #include "apps/wording.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/io/packing_file.h"
@@ -123,9 +124,9 @@ nlohmann::json to_json(const Entry& entry) {
 /// One line of the table; `cell` gives the text of an entry.
 template <class Cell>
 void print_row(const char* name, const std::vector<Entry>& entries, Cell cell) {
-  fmt::print("{:<34}", name);
-  for (const Entry& entry : entries) fmt::print("{:>18}", cell(entry));
-  fmt::print("\n");
+  say("{:<34}", name);
+  for (const Entry& entry : entries) say("{:>18}", cell(entry));
+  say("\n");
 }
 
 void print_table(const std::vector<Entry>& entries) {
@@ -167,13 +168,13 @@ void print_disagreements(const std::vector<Entry>& entries, double tolerance) {
   for (const Entry& entry : entries) {
     const std::vector<Disagreement>& all = entry.comparison.disagreements;
     if (all.empty()) continue;
-    fmt::print("\n{} and lp certify values that differ by more than {:g} mg:\n",
-               to_string(entry.ranges.method), tolerance);
+    say("\n{} and lp certify values that differ by more than {:g} mg:\n", to_string(entry.ranges.method),
+        tolerance);
     for (std::size_t i = 0; i < std::min(kShown, all.size()); ++i) {
-      fmt::print("  contact {:<6} {}  {:.12g} instead of {:.12g}\n", all[i].contact, to_string(all[i].column),
-                 all[i].found, all[i].expected);
+      say("  contact {:<6} {}  {:.12g} instead of {:.12g}\n", all[i].contact, to_string(all[i].column),
+          all[i].found, all[i].expected);
     }
-    if (all.size() > kShown) fmt::print("  … and {} more\n", all.size() - kShown);
+    if (all.size() > kShown) say("  … and {} more\n", all.size() - kShown);
   }
 }
 
@@ -246,11 +247,11 @@ int run(const CompareCommand& options, const Context& context) {
     return status_of(entries);
   }
   if (context.quiet) return status_of(entries);
-  fmt::print("{}, {}: polytope of contact states {}, dimension {}\n", describe_disks(packing),
-             counted(packing.contact_count(), "contact"), to_string(lp.status), lp.dim);
-  fmt::print("common to all methods: {:.3f} s (polytope)\n\n", common_seconds(entries));
+  say("{}, {}: polytope of contact states {}, dimension {}\n", describe_disks(packing),
+      counted(packing.contact_count(), "contact"), to_string(lp.status), lp.dim);
+  say("common to all methods: {:.3f} s (polytope)\n\n", common_seconds(entries));
   print_table(entries);
-  fmt::print("\n");
+  say("\n");
   for (const Entry& entry : entries) {
     if (entry.ranges.method == Method::kPivotingPaper) print_paper_work(entry.ranges.paper);
   }

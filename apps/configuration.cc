@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <sstream>
 
+#include "apps/numbers.h"
 #include "apps/suggestion.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 
 namespace indet::app {
 namespace {
@@ -56,7 +58,7 @@ void add_settings(const toml::table& table, const CLI::App& command, const std::
     const bool is_root = command.get_parent() == nullptr;
     if (node.is_table() && is_root && option == nullptr) continue;  // of a subcommand
     const std::string name(key.str());
-    const std::string place = fmt::format("{}:{}: {}", file, node.source().begin.line, name);
+    const std::string place = fmt::format("{}:{}: {}", file, node.source().begin.line, excerpt(name));
     if (option == nullptr || !is_setting(*option)) {
       const std::string words = is_root ? command.get_name() : "indet " + command.get_name();
       throw InputError(fmt::format("{}: {} has no such option{}; see {} --help", place, words,
@@ -88,7 +90,24 @@ toml::table read_toml(const std::string& file) {
   }
 }
 
-/// A value as TOML: a flag is a boolean, digits are a number, the rest is text.
+/// A value as TOML: of an option that takes numbers, or where it prints as it was given, a number; else text.
+/// Calls `add` with it.
+template <class Add>
+void add_value(const CLI::Option& option, const std::string& value, const Add& add) {
+  const std::string type = option.get_type_name();
+  const bool takes_numbers = type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
+  const char* const end = value.data() + value.size();
+  std::int64_t whole = 0;
+  double real = 0;
+  if (const auto parsed = std::from_chars(value.data(), end, whole);
+      parsed.ec == std::errc() && parsed.ptr == end && (takes_numbers || fmt::format("{}", whole) == value))
+    return add(whole);
+  if (const auto parsed = std::from_chars(value.data(), end, real);
+      parsed.ec == std::errc() && parsed.ptr == end && (takes_numbers || fmt::format("{}", real) == value))
+    return add(real);
+  add(value);
+}
+
 void insert(toml::table& table, const CLI::Option& option) {
   const std::string name = option.get_lnames().front();
   if (option.get_expected_max() == 0) {
@@ -98,33 +117,13 @@ void insert(toml::table& table, const CLI::Option& option) {
   std::vector<std::string> values = option.results();
   if (values.empty() && !option.get_default_str().empty()) values = {option.get_default_str()};
   if (values.empty()) return;
-  const auto add = [](auto& container, const std::string& value, auto... key) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    const bool is_number = error == std::errc() && end == value.data() + value.size();
-    const bool is_integer = is_number && value.find_first_not_of("+-0123456789") == std::string::npos;
-    if constexpr (sizeof...(key) == 1) {
-      if (is_integer)
-        container.insert(key..., std::stoll(value));
-      else if (is_number)
-        container.insert(key..., number);
-      else
-        container.insert(key..., value);
-    } else {
-      if (is_integer)
-        container.push_back(std::stoll(value));
-      else if (is_number)
-        container.push_back(number);
-      else
-        container.push_back(value);
-    }
-  };
   if (values.size() == 1) {
-    add(table, values.front(), name);
+    add_value(option, values.front(), [&](const auto& value) { table.insert(name, value); });
     return;
   }
   toml::array array;
-  for (const std::string& value : values) add(array, value);
+  for (const std::string& text : values)
+    add_value(option, text, [&](const auto& value) { array.push_back(value); });
   table.insert(name, array);
 }
 
@@ -136,29 +135,7 @@ toml::table settings_of(const CLI::App& command) {
   return table;
 }
 
-/// A number that is as `accept` says; `condition` says it to people. (CLI11 prints the largest double
-/// with all its digits.)
-CLI::Validator number_that(bool (*accept)(double), const char* condition, const char* name) {
-  return {[accept, condition](const std::string& text) -> std::string {
-            double value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool is_number = error == std::errc() && end == text.data() + text.size();
-            return is_number && std::isfinite(value) && accept(value)
-                       ? ""
-                       : fmt::format("\"{}\" is not a number {}", text, condition);
-          },
-          name};
-}
-
 }  // namespace
-
-CLI::Validator not_negative() {
-  return number_that([](double value) { return value >= 0; }, "≥ 0", "NONNEGATIVE");
-}
-
-CLI::Validator positive() {
-  return number_that([](double value) { return value > 0; }, "> 0", "POSITIVE");
-}
 
 void name_environment_variables(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
@@ -174,11 +151,7 @@ void name_environment_variables(CLI::App& command) {
 
 void parse_with_configuration(CLI::App& root, const std::vector<std::string>& arguments,
                               const std::string& file) {
-  const auto parse = [&root](std::vector<std::string> list) {
-    std::reverse(list.begin(), list.end());  // CLI11 takes them last first
-    root.parse(list);
-  };
-  parse(arguments);
+  parse_numbers(root, arguments);
   if (file.empty()) return;
   const toml::table table = read_toml(file);
   Settings settings;
@@ -192,15 +165,15 @@ void parse_with_configuration(CLI::App& root, const std::vector<std::string>& ar
       std::vector<std::string> names;
       for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(command->get_name());
-      throw InputError(fmt::format("{}:{}: '{}' is not a subcommand{}", file, node.source().begin.line, name,
-                                   suggestion(name, names)));
+      throw InputError(fmt::format("{}:{}: '{}' is not a subcommand{}", file, node.source().begin.line,
+                                   excerpt(name), suggestion(name, names)));
     }
     add_settings(*node.as_table(), *commands.front(), file, commands.front()->parsed(), settings);
   }
   std::vector<std::string> all = arguments;
   all.insert(all.end(), settings.arguments.begin(), settings.arguments.end());
   try {
-    parse(all);
+    parse_numbers(root, all);
   } catch (const CLI::ParseError& error) {
     // "--key: reason": the command line alone was fine, so the value comes from the file.
     const std::string text = error.what();

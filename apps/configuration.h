@@ -6,11 +6,6 @@
 
 namespace indet::app {
 
-/// Accepts numbers ≥ 0.
-CLI::Validator not_negative();
-/// Accepts numbers > 0.
-CLI::Validator positive();
-
 /// Lets every option of a command be set by an environment variable: INDET_FORMULATION for --formulation.
 void name_environment_variables(CLI::App& command);
 

@@ -14,16 +14,18 @@
 #include <vector>
 
 #include "apps/command.h"
-#include "apps/configuration.h"
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/members/run.h"
 #include "apps/ensemble_output.h"
 #include "apps/memory_limit.h"
+#include "apps/numbers.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
+#include "apps/say.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/lp/glpk_problem.h"
 #include "libsim/memory_estimate.h"
 #include "libsim/molecular_preset.h"
@@ -50,7 +52,7 @@ std::int64_t count_of(const char* option, const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (text == "all") return std::numeric_limits<std::int64_t>::max();
   if (error != std::errc() || end != text.data() + text.size() || count < 0)
-    throw UsageError(fmt::format("{} {}: expected a number, or all", option, text));
+    throw UsageError(fmt::format("{} {}: expected a number, or all", option, excerpt(text)));
   return count;
 }
 
@@ -95,11 +97,12 @@ Range range_of(const std::string& text, int members) {
       throw std::invalid_argument(text);
     }
   } catch (const std::logic_error&) {
-    throw UsageError(
-        fmt::format("--members {}: expected FIRST-LAST or one number, as --dry-run lists them", text));
+    throw UsageError(fmt::format("--members {}: expected FIRST-LAST or one number, as --dry-run lists them",
+                                 excerpt(text)));
   }
   if (range.first < 0 || range.first > range.last || range.last >= members)
-    throw UsageError(fmt::format("--members {}: the members of this ensemble are 0-{}", text, members - 1));
+    throw UsageError(
+        fmt::format("--members {}: the members of this ensemble are 0-{}", excerpt(text), members - 1));
   return range;
 }
 
@@ -108,7 +111,7 @@ int list_members(const Plan& plan, const Range& range, const std::filesystem::pa
   double total = 0;
   int open = 0;
   nlohmann::json json = nlohmann::json::array();
-  if (context.prints_report()) fmt::print("{:>6}  {:<24} {:>13}\n", "member", "packing", "seconds");
+  if (context.prints_report()) say("{:>6}  {:<24} {:>13}\n", "member", "packing", "seconds");
   for (const Member& member : plan.members) {
     if (member.number < range.first || member.number > range.last) continue;
     const bool is_done = member_is_done(member_path(folder, member.name), member);
@@ -122,14 +125,14 @@ int list_members(const Plan& plan, const Range& range, const std::filesystem::pa
                       {"done", is_done}});
     } else if (context.prints_report()) {
       const std::string cost = is_done ? "there already" : fmt::format("{:.1f}", member.cost);
-      fmt::print("{:>6}  {:<24} {:>13}\n", member.number, member.name, cost);
+      say("{:>6}  {:<24} {:>13}\n", member.number, member.name, cost);
     }
   }
   if (context.json) {
     std::cout << nlohmann::json{{"members", json}, {"seconds", total}}.dump(2) << '\n';
   } else if (context.prints_report()) {
-    fmt::print("{} to compute, about {:.0f} s on {}\n", counted(open, "packing"),
-               total / context.thread_count(), counted(context.thread_count(), "core"));
+    say("{} to compute, about {:.0f} s on {}\n", counted(open, "packing"), total / context.thread_count(),
+        counted(context.thread_count(), "core"));
   }
   return kDone;
 }
@@ -139,8 +142,7 @@ void print_molecular_dynamics(const EnsembleConfig& config, const std::string& p
         return is_simulated_by(protocol, sim::Simulator::kMolecularDynamics);
       }))
     return;
-  fmt::print(
-      "molecular dynamics: preset {}, stiffness {:.10g} mg/r_max, damping {:.10g} mg/r_max sqrt(r_max/g)\n",
+  say("molecular dynamics: preset {}, stiffness {:.10g} mg/r_max, damping {:.10g} mg/r_max sqrt(r_max/g)\n",
       preset, config.molecular_dynamics.k, config.molecular_dynamics.gamma);
 }
 

@@ -10,6 +10,7 @@
 #include "apps/ensemble/presentation/figures.h"
 #include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/tables/ensemble_file.h"
+#include "apps/say.h"
 #include "apps/terminal.h"
 
 namespace indet::app {
@@ -55,9 +56,9 @@ int report_part(const std::filesystem::path& folder, int first, int last, const 
                      .dump(2)
               << '\n';
   } else if (context.prints_report()) {
-    fmt::print("members {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last,
-               outcomes.done, outcomes.skipped, outcomes.failures.size(), seconds);
-    fmt::print("join the parts with indet merge\n");
+    say("members {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last, outcomes.done,
+        outcomes.skipped, outcomes.failures.size(), seconds);
+    say("join the parts with indet merge\n");
   }
   return outcomes.failures.empty() ? kDone : kUncertain;
 }
@@ -109,18 +110,18 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
     }
     std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
-    fmt::print("{}: {} computed, {} there already, {} failed\n",
-               counted(static_cast<std::int64_t>(plan.members.size()), "packing"), outcomes.done,
-               outcomes.skipped, outcomes.failures.size());
+    say("{}: {} computed, {} there already, {} failed\n",
+        counted(static_cast<std::int64_t>(plan.members.size()), "packing"), outcomes.done, outcomes.skipped,
+        outcomes.failures.size());
     const double unbounded = runs.sum("unbounded");
-    fmt::print("{}, {} extrema: {} certified{}, {} imprecise, {} failed\n",
-               counted(static_cast<std::int64_t>(contents.tables.contacts.rows()), "contact"),
-               runs.sum("objectives"), runs.sum("certified"),
-               unbounded > 0 ? fmt::format(" ({} of them unbounded)", unbounded) : "", runs.sum("imprecise"),
-               runs.sum("failed"));
-    if (!known.empty()) fmt::print("smallest distances: {}\n", known);
-    for (const std::string& name : contents.missing) fmt::print("missing: {}\n", name);
-    fmt::print("written to {} ({:.1f} s)\n", path.string(), seconds());
+    say("{}, {} extrema: {} certified{}, {} imprecise, {} failed\n",
+        counted(static_cast<std::int64_t>(contents.tables.contacts.rows()), "contact"),
+        runs.sum("objectives"), runs.sum("certified"),
+        unbounded > 0 ? fmt::format(" ({} of them unbounded)", unbounded) : "", runs.sum("imprecise"),
+        runs.sum("failed"));
+    if (!known.empty()) say("smallest distances: {}\n", known);
+    for (const std::string& name : contents.missing) say("missing: {}\n", name);
+    say("written to {} ({:.1f} s)\n", path.string(), seconds());
   }
   return contents.missing.empty() && uncertain == 0 ? kDone : kUncertain;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/ranges_json.h"
+#include "apps/say.h"
 #include "apps/wording.h"
 #include "libindet/statistics/residual_band.h"
 
@@ -75,33 +76,30 @@ nlohmann::json estimates_to_json(const ForceRanges& ranges) {
 void print_estimates(const Packing& packing, const ForceRanges& ranges) {
   const auto& R = ranges.estimated_R;
   const auto& T = ranges.estimated_T;
-  fmt::print(
-      "\nestimates of δR and δT (mg), not found but predicted from the widths about the analytic centre\n");
+  say("\nestimates of δR and δT (mg), not found but predicted from the widths about the analytic centre\n");
   for (const auto& [name, estimates] : {std::pair("δR", &R), {"δT", &T}}) {
     const Overview all = overview(*estimates);
-    fmt::print("  {}   of {}: mean {:.4g}, max {:.4g}", name, counted(all.count, "contact"), all.mean,
-               all.max);
+    say("  {}   of {}: mean {:.4g}, max {:.4g}", name, counted(all.count, "contact"), all.mean, all.max);
     if (all.count > 0)
-      fmt::print("; {:.0f} % interval from {:.2g} to {:.2g} times the estimate, as a rule",
-                 100 * ranges.coverage, all.below, all.above);
-    fmt::print("\n");
+      say("; {:.0f} % interval from {:.2g} to {:.2g} times the estimate, as a rule", 100 * ranges.coverage,
+          all.below, all.above);
+    say("\n");
   }
   if (ranges.requested == 0) {
-    fmt::print(
-        "  by coefficients of other packings alone: they hold for packings like these; --calibrate {} or "
+    say("  by coefficients of other packings alone: they hold for packings like these; --calibrate {} or "
         "more "
         "holds for any\n",
         fewest_for_conformal(ranges.coverage));
   } else {
-    fmt::print("  calibrated on {} drawn at random (seed {}), whose ranges were found\n",
-               counted(ranges.requested, "contact"), ranges.sample_seed);
+    say("  calibrated on {} drawn at random (seed {}), whose ranges were found\n",
+        counted(ranges.requested, "contact"), ranges.sample_seed);
     if (ranges.requested < fewest_for_conformal(ranges.coverage))
-      fmt::print("  too few for intervals that hold for any packing (from {} on)\n",
-                 fewest_for_conformal(ranges.coverage));
+      say("  too few for intervals that hold for any packing (from {} on)\n",
+          fewest_for_conformal(ranges.coverage));
   }
   if (determined_forces(ranges) > 0)
-    fmt::print("  {} the same in every state\n",
-               determined_forces(ranges) == 1 ? "1 force is"
+    say("  {} the same in every state\n", determined_forces(ranges) == 1
+                                              ? "1 force is"
                                               : fmt::format("{} forces are", determined_forces(ranges)));
   std::vector<Eigen::Index> order;
   for (Eigen::Index i = 0; i < R.estimate.size(); ++i) {
@@ -112,11 +110,10 @@ void print_estimates(const Packing& packing, const ForceRanges& ranges) {
   if (order.empty()) return;
   constexpr std::size_t kShown = 5;
   order.resize(std::min(kShown, order.size()));
-  fmt::print(
-      "\nlargest estimated δR      contact     bodies             δR between            δT between   (mg)\n");
+  say("\nlargest estimated δR      contact     bodies             δR between            δT between   (mg)\n");
   for (const Eigen::Index i : order) {
-    fmt::print("{:>20.4g} {:>12}     {:<12} {:>8.4g} and {:>8.4g}  {:>8.4g} and {:>8.4g}\n", R.estimate[i], i,
-               contact_name(packing, ContactId(i)), R.low[i], R.high[i], T.low[i], T.high[i]);
+    say("{:>20.4g} {:>12}     {:<12} {:>8.4g} and {:>8.4g}  {:>8.4g} and {:>8.4g}\n", R.estimate[i], i,
+        contact_name(packing, ContactId(i)), R.low[i], R.high[i], T.low[i], T.high[i]);
   }
 }
 

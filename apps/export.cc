@@ -19,6 +19,7 @@
 #include "apps/kept_states.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
+#include "apps/say.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
 #include "libindet/io/csv_writer.h"
@@ -202,8 +203,8 @@ int run(ExportOptions options, const Context& context) {
     if (format == "extxyz") json["bonds"] = bonds_path_of(output).string();
     std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
-    fmt::print("written to {}{}\n", options.output,
-               format == "extxyz" ? " and " + bonds_path_of(output).string() : "");
+    say("written to {}{}\n", options.output,
+        format == "extxyz" ? " and " + bonds_path_of(output).string() : "");
   }
   return kDone;
 }

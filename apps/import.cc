@@ -9,6 +9,7 @@
 #include "apps/command.h"
 #include "apps/import_arguments.h"
 #include "apps/output_files.h"
+#include "apps/say.h"
 #include "apps/wording.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
@@ -99,10 +100,10 @@ void print_levers(const LeverChoice& choice) {
       why = "the usual one";
       break;
   }
-  fmt::print("lever arms          {} ({})\n", name_of(choice.levers), why);
+  say("lever arms          {} ({})\n", name_of(choice.levers), why);
   if (choice.trials.size() < 2) return;
   for (const LeverTrial& trial : choice.trials) {
-    fmt::print("{:20}{:37}{:.2e} mg r\n", "", name_of(trial.levers), trial.residual);
+    say("{:20}{:37}{:.2e} mg r\n", "", name_of(trial.levers), trial.residual);
   }
 }
 
@@ -110,62 +111,60 @@ void print_levers(const LeverChoice& choice) {
 void print_stress(const Packing& packing, const StressReport& report) {
   if (report.of_forces) {
     const Eigen::Matrix2d& s = *report.of_forces;
-    fmt::print("stress of forces    xx = {:.6g}, yy = {:.6g}, xy = {:.6g}\n", s(0, 0), s(1, 1), s(0, 1));
+    say("stress of forces    xx = {:.6g}, yy = {:.6g}, xy = {:.6g}\n", s(0, 0), s(1, 1), s(0, 1));
     // Torques that do not act at the ends of the branch vectors leave this.
     const double asymmetry = s(0, 1) - s(1, 0);
     if (std::abs(asymmetry) > tolerance::kSymmetricStress * s.norm())
-      fmt::print("                    xy − yx = {:.3g}\n", asymmetry);
+      say("                    xy − yx = {:.3g}\n", asymmetry);
   }
   if (!packing.cell.is_full()) return;
-  fmt::print("imposed stress      {}{}\n", describe_stress(packing.stress),
-             report.is_taken_from_forces ? " (that of the forces)" : "");
+  say("imposed stress      {}{}\n", describe_stress(packing.stress),
+      report.is_taken_from_forces ? " (that of the forces)" : "");
 }
 
 void print_report(const ImportedPacking& imported, const BalanceReport& report, const StressReport& stress,
                   double tolerance) {
   const Packing& packing = imported.packing;
-  fmt::print("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", describe_disks(packing),
-             counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"),
-             packing.gravity.x(), packing.gravity.y(), packing.force_unit());
-  if (!report.forces_known) fmt::print("{}\n", describe_knowledge(packing, report));
+  say("{}, {}, {}, gravity ({:g}, {:g}), mg = {:.6g}\n", describe_disks(packing),
+      counted(packing.wall_count(), "wall"), counted(packing.contact_count(), "contact"), packing.gravity.x(),
+      packing.gravity.y(), packing.force_unit());
+  if (!report.forces_known) say("{}\n", describe_knowledge(packing, report));
   if (report.checked_disks > 0) {
     // Where nothing is left over there is no worst disk.
     const auto name = [&](DiskId disk) {
       return disk.value() < 0 ? "" : fmt::format(" (disk {})", packing[disk].id);
     };
-    fmt::print("largest net force   {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
-    fmt::print("largest net torque  {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
+    say("largest net force   {:.2e} mg{}\n", report.force_residual, name(report.worst_force));
+    say("largest net torque  {:.2e} mg r{}\n", report.torque_residual, name(report.worst_torque));
     if (packing.has_loaded_walls()) {
-      fmt::print("net force on a wall {:.2e} mg{}\n", report.wall_residual,
-                 report.worst_wall.value() < 0
-                     ? ""
-                     : fmt::format(" (wall {})", wall_name(packing[report.worst_wall])));
+      say("net force on a wall {:.2e} mg{}\n", report.wall_residual,
+          report.worst_wall.value() < 0 ? ""
+                                        : fmt::format(" (wall {})", wall_name(packing[report.worst_wall])));
     }
     if (packing.stress.is_imposed() && report.forces_known && !stress.is_taken_from_forces)
-      fmt::print("stress off by       {:.2e} mg on a side of the cell\n", report.stress_residual);
-    fmt::print("                    (accepted up to {:.0e})\n", tolerance);
+      say("stress off by       {:.2e} mg on a side of the cell\n", report.stress_residual);
+    say("                    (accepted up to {:.0e})\n", tolerance);
     if (imported.levers) print_levers(*imported.levers);
   }
   if (packing.cell.is_periodic()) {
-    fmt::print("periodic cell       {}\n", describe_cell(packing.cell));
+    say("periodic cell       {}\n", describe_cell(packing.cell));
     print_stress(packing, stress);
   }
   if (report.any_known()) {
-    fmt::print("Coulomb violations  {}", report.coulomb_violations);
-    if (report.coulomb_violations > 0) fmt::print(", the worst by {:.2e} mg", report.worst_violation);
-    fmt::print("\nsliding contacts    {}\n", report.sliding - 2 * report.non_transmitting);
-    fmt::print("without force       {}\n", report.non_transmitting);
+    say("Coulomb violations  {}", report.coulomb_violations);
+    if (report.coulomb_violations > 0) say(", the worst by {:.2e} mg", report.worst_violation);
+    say("\nsliding contacts    {}\n", report.sliding - 2 * report.non_transmitting);
+    say("without force       {}\n", report.non_transmitting);
   }
-  if (packing.has_levers() && !imported.levers)
-    fmt::print("levers              {}\n", describe_levers(packing));
-  if (!force_bounds(packing).empty()) fmt::print("bounds of forces    {}\n", force_bounds(packing).size());
-  fmt::print("listed twice        {}\n", report.duplicates);
+  if (packing.has_levers() && !imported.levers) say("levers              {}\n", describe_levers(packing));
+  if (!force_bounds(packing).empty()) say("bounds of forces    {}\n", force_bounds(packing).size());
+  say("listed twice        {}\n", report.duplicates);
   if (imported.without_equations > 0)
-    fmt::print("left out            {} between two bodies that do not move\n",
-               counted(imported.without_equations, "contact"));
-  fmt::print("loose disks         {}", report.loose_disks);
-  if (report.loose_disks > 0) fmt::print(", the first is disk {}", packing[report.first_loose].id);
-  fmt::print("\n");
+    say("left out            {} between two bodies that do not move\n",
+        counted(imported.without_equations, "contact"));
+  say("loose disks         {}", report.loose_disks);
+  if (report.loose_disks > 0) say(", the first is disk {}", packing[report.first_loose].id);
+  say("\n");
 }
 
 int run(const ImportArguments& options, const CLI::App& command, const Context& context) {
@@ -205,7 +204,7 @@ int run(const ImportArguments& options, const CLI::App& command, const Context& 
     std::cout << to_json(imported, report, stress, tolerance, options.output).dump(2) << '\n';
   } else if (context.prints_report()) {
     print_report(imported, report, stress, tolerance);
-    fmt::print("written to {}\n", options.output);
+    say("written to {}\n", options.output);
   }
   return kDone;
 }

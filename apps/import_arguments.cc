@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "apps/command.h"
-#include "apps/configuration.h"
+#include "apps/numbers.h"
 #include "apps/output_files.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/given_walls.h"
 
 namespace indet::app {
@@ -31,7 +32,7 @@ std::map<std::string, std::string> parse_columns(const std::vector<std::string>&
   for (const std::string& item : items) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) {
-      fail(fmt::format("--columns: \"{}\" must have the form NAME=COLUMN", item));
+      fail(fmt::format("--columns: \"{}\" must have the form NAME=COLUMN", excerpt(item)));
     }
     if (!columns.emplace(item.substr(0, equals), item.substr(equals + 1)).second) {
       fail(fmt::format("--columns: {} is given twice", item.substr(0, equals)));

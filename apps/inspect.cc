@@ -24,6 +24,7 @@
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
+#include "apps/say.h"
 #include "apps/statistics.h"
 #include "apps/wording.h"
 #include "libindet/io/balance.h"
@@ -125,7 +126,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
   return json;
 }
 
-void print_line(const std::string& name, const std::string& value) { fmt::print("{:<20}{}\n", name, value); }
+void print_line(const std::string& name, const std::string& value) { say("{:<20}{}\n", name, value); }
 
 std::string span_text(const Extremes& e, const char* unit) {
   if (e.count == 0) return "none";
@@ -325,13 +326,13 @@ int inspect_ensemble(const Hdf5File& file, const Context& context) {
     std::cout << json.dump(2) << '\n';
     return kDone;
   }
-  if (!digests.match()) context.warn(path + ": its numbers are not those that were written");
+  if (!digests.match()) context.warn(path + ": its numbers or texts are not those that were written");
   if (context.quiet) return kDone;
   print_line("ensemble", path);
   for (const auto& [protocol, count] : protocols) print_line("  " + protocol, counted(count, "packing"));
   print_line("  contacts", fmt::format("{}", contents.tables.contacts.rows()));
   print_line("  missing packings", fmt::format("{}", contents.missing.size()));
-  for (const Comparison& fact : facts) fmt::print("  {:<30}{}\n", fact.quantity, fact.ours);
+  for (const Comparison& fact : facts) say("  {:<30}{}\n", fact.quantity, fact.ours);
   print_line("contents", digests.content + (digests.match() ? "" : " DIFFERS"));
   return kDone;
 }
@@ -347,7 +348,8 @@ int run(const std::string& given, const Context& context) {
     std::cout << to_json(path, contents).dump(2) << '\n';
     return kDone;
   }
-  if (!contents.digests.match()) context.warn(path + ": its numbers are not those that were written");
+  if (!contents.digests.match())
+    context.warn(path + ": its numbers or texts are not those that were written");
   if (context.quiet) return kDone;
   print_line("file", path);
   print_packing(contents);

@@ -10,14 +10,17 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/configuration.h"
 #include "apps/help_format.h"
 #include "apps/memory_limit.h"
+#include "apps/numbers.h"
 #include "apps/suggestion.h"
 #include "apps/terminal.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/base/version.h"
 
 namespace indet::app {
@@ -48,8 +51,25 @@ std::vector<Command> add_commands(CLI::App& root) {
   for (const Command& command : commands) {
     command.options->fallthrough();  // global options may follow the subcommand
     name_environment_variables(*command.options);
+    require_numbers(*command.options);
   }
   return commands;
+}
+
+/// The message as a terminal may show it, with excerpts of the long ones among the arguments that it quotes.
+std::string with_short_words(std::string message, const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    // Of --name=value, the value may be quoted alone.
+    for (const std::string& word : {argument, argument.substr(argument.find('=') + 1)}) {
+      const std::string shorter = excerpt(word);
+      if (shorter.size() >= word.size()) continue;
+      for (std::size_t at = message.find(word); at != std::string::npos; at = message.find(word, at)) {
+        message.replace(at, word.size(), shorter);
+        at += shorter.size();
+      }
+    }
+  }
+  return printable(message);
 }
 
 int run(int argc, char** argv) {
@@ -71,6 +91,7 @@ int run(int argc, char** argv) {
   root.add_flag("--quiet", context.quiet,
                 "Print nothing but warnings and errors (and, with --json, the document)");
   name_environment_variables(root);
+  require_numbers(root);
   const std::vector<Command> commands = add_commands(root);
   context.arguments.assign(argv, argv + argc);
 
@@ -81,7 +102,8 @@ int run(int argc, char** argv) {
     const bool wrong = error.get_exit_code() != 0;  // --help and --version are thrown too
     const std::string complaint = wrong ? complaint_about_unknown_word(root) : "";
     if (!complaint.empty()) throw UsageError(complaint);
-    return root.exit(error) == 0 ? kDone : kUsage;
+    if (!wrong) return root.exit(error);
+    throw UsageError(std::string(error.what()) + "\nRun with --help for more information.");
   }
   for (const Command& command : commands) {
     if (!command.options->parsed()) continue;
@@ -104,7 +126,9 @@ void flush_output() {
 int main(int argc, char** argv) {
   using namespace indet;
   app::catch_signals();
-  const auto complain = [](const char* message) { std::cerr << "indet: " << message << '\n'; };
+  const auto complain = [&](const char* message) {
+    std::cerr << "indet: " << app::with_short_words(message, {argv + 1, argv + argc}) << '\n';
+  };
   if (const std::string lack = app::lack_of_memory(); !lack.empty()) {
     complain(lack.c_str());
     std::_Exit(app::kInternalError);  // threads of OpenBLAS that wait for memory would not end

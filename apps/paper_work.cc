@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/command.h"
+#include "apps/say.h"
 
 namespace indet::app {
 
@@ -28,25 +29,24 @@ nlohmann::json describe_paper_work(const ForceRanges& ranges) {
 }
 
 void print_paper_work(const PaperWork& work) {
-  fmt::print("pivoting-paper: {} over {}, of which {} had an unexpected number of active constraints\n",
-             counted(work.walk_count(), "walk"), counted(work.points, "extremal point"), work.unexpected);
+  say("pivoting-paper: {} over {}, of which {} had an unexpected number of active constraints\n",
+      counted(work.walk_count(), "walk"), counted(work.points, "extremal point"), work.unexpected);
   for (int end = 0; end < kInteriorEnds; ++end) {
     const std::int64_t blocks = work.starts[static_cast<std::size_t>(end)];
     if (blocks == 0) continue;
     const auto kind = static_cast<InteriorEnd>(end);
     if (kind == InteriorEnd::kFound) {
-      fmt::print("  interior point: from the simulated state, by moving away from {}\n",
-                 counted(work.sliding_left, "sliding contact"));
+      say("  interior point: from the simulated state, by moving away from {}\n",
+          counted(work.sliding_left, "sliding contact"));
     } else {
-      fmt::print("  interior point: by a linear program in {} ({})\n", counted(blocks, "block"),
-                 to_string(kind));
+      say("  interior point: by a linear program in {} ({})\n", counted(blocks, "block"), to_string(kind));
     }
   }
-  fmt::print("  {} failed, by the method's own account\n", counted(work.failures(), "walk"));
+  say("  {} failed, by the method's own account\n", counted(work.failures(), "walk"));
   for (int end = 0; end < kWalkEnds; ++end) {
     const std::int64_t walks = work.walks[static_cast<std::size_t>(end)];
     if (walks == 0 || static_cast<WalkEnd>(end) == WalkEnd::kNoneBetter) continue;
-    fmt::print("    {:>6}  {}\n", walks, to_string(static_cast<WalkEnd>(end)));
+    say("    {:>6}  {}\n", walks, to_string(static_cast<WalkEnd>(end)));
   }
 }
 

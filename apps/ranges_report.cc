@@ -15,6 +15,7 @@
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
 #include "apps/sample_report.h"
+#include "apps/say.h"
 #include "apps/statistics.h"
 #include "apps/wording.h"
 #include "libindet/base/tolerances.h"
@@ -139,31 +140,30 @@ namespace {
 void print_motion(const Packing& packing, const ForceRanges& ranges) {
   if (const auto contradiction = describe_contradiction(packing, ranges); !contradiction.empty()) {
     if (!ranges.doubtful)
-      fmt::print("No contact forces balance the load, keep to friction and to the bounds of forces.\n");
-    for (const std::string& line : contradiction) fmt::print("{}.\n", line);
+      say("No contact forces balance the load, keep to friction and to the bounds of forces.\n");
+    for (const std::string& line : contradiction) say("{}.\n", line);
     return;
   }
-  fmt::print(
-      "The packing cannot stand: no contact forces within the friction cones balance the load.\n"
+  say("The packing cannot stand: no contact forces within the friction cones balance the load.\n"
       "It can move as follows, with the load and against no contact (velocity x, y, and radius × "
       "rotation):\n");
   const std::vector<MovingDisk> disks = moving_disks(ranges);
   constexpr std::size_t kShown = 10;
   for (std::size_t i = 0; i < std::min(kShown, disks.size()); ++i) {
-    fmt::print("  disk {:<6} {:+.3f}  {:+.3f}  {:+.3f}\n", packing[DiskId(disks[i].index)].id,
-               disks[i].motion.x(), disks[i].motion.y(), disks[i].motion.z());
+    say("  disk {:<6} {:+.3f}  {:+.3f}  {:+.3f}\n", packing[DiskId(disks[i].index)].id, disks[i].motion.x(),
+        disks[i].motion.y(), disks[i].motion.z());
   }
-  if (disks.size() > kShown) fmt::print("  … and {} more\n", disks.size() - kShown);
+  if (disks.size() > kShown) say("  … and {} more\n", disks.size() - kShown);
   for (Eigen::Index w = 0; w < ranges.wall_motion.rows(); ++w) {
     const auto motion = ranges.wall_motion.row(w);
     if (motion.norm() <= tolerance::kMotionEntry) continue;
-    fmt::print("  wall {:<6} {:+.3f} along its normal, {:+.3f} along its tangent\n",
-               wall_name(packing[WallId(w)]), motion[0], motion[1]);
+    say("  wall {:<6} {:+.3f} along its normal, {:+.3f} along its tangent\n", wall_name(packing[WallId(w)]),
+        motion[0], motion[1]);
   }
   if (ranges.cell_motion.rows() > 0) {
     const auto& e = ranges.cell_motion;
-    fmt::print("  the cell shrinks {:+.3f} along x, {:+.3f} along y, shears {:+.3f} (x against y)\n", e(0, 0),
-               e(1, 1), e(0, 1));
+    say("  the cell shrinks {:+.3f} along x, {:+.3f} along y, shears {:+.3f} (x against y)\n", e(0, 0),
+        e(1, 1), e(0, 1));
   }
 }
 
@@ -175,14 +175,14 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return ranges.delta_R[a] > ranges.delta_R[b]; });
-  fmt::print("\nlargest δR      contact     bodies        R_min     R_max     T_min     T_max   (mg)\n");
+  say("\nlargest δR      contact     bodies        R_min     R_max     T_min     T_max   (mg)\n");
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
     const Eigen::Index k = order[i];
     Eigen::Array4d value = ranges.value.row(k).transpose() / ranges.force_unit;
     // 4e-15 is rounding around 0; the file has the digits.
     for (double& v : value) v = std::abs(v) < tolerance::kPrintedZero ? 0 : v;
-    fmt::print("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
-               contact_name(packing, ContactId(k)), value[kMinR], value[kMaxR], value[kMinT], value[kMaxT]);
+    say("{:>10.4g} {:>12}     {:<12} {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8.4g}\n", ranges.delta_R[k], k,
+        contact_name(packing, ContactId(k)), value[kMinR], value[kMaxR], value[kMinT], value[kMaxT]);
   }
 }
 
@@ -190,87 +190,84 @@ void print_extremes(const Packing& packing, const ForceRanges& ranges) {
 void print_quality(const ForceRanges& ranges) {
   const bool has_estimates = ranges.calibration >= 0;
   if (has_estimates && ranges.objectives == 0) return;
-  fmt::print("{}: {} certified{}, {} imprecise, {} failed\n",
-             counted(ranges.objectives, "extremum", "extrema"), ranges.certified,
-             ranges.unbounded > 0 ? fmt::format(" ({} of them unbounded)", ranges.unbounded) : "",
-             ranges.imprecise, ranges.failed);
+  say("{}: {} certified{}, {} imprecise, {} failed\n", counted(ranges.objectives, "extremum", "extrema"),
+      ranges.certified, ranges.unbounded > 0 ? fmt::format(" ({} of them unbounded)", ranges.unbounded) : "",
+      ranges.imprecise, ranges.failed);
   if (ranges.enclosed < ranges.certified)
-    fmt::print("largest residuals: {:.1e} of balance and friction, {:.1e} of optimality\n",
-               ranges.worst_primal_residual, ranges.worst_dual_residual);
+    say("largest residuals: {:.1e} of balance and friction, {:.1e} of optimality\n",
+        ranges.worst_primal_residual, ranges.worst_dual_residual);
   if (ranges.reactions.uncertain() > 0) {
-    fmt::print("of {} of walls and fixed disks, {} imprecise or failed\n",
-               counted(2 * ranges.reactions.count(), "extremum", "extrema"), ranges.reactions.uncertain());
+    say("of {} of walls and fixed disks, {} imprecise or failed\n",
+        counted(2 * ranges.reactions.count(), "extremum", "extrema"), ranges.reactions.uncertain());
   }
   const Firmness firm = firmness(ranges);
   const std::string open = firm.half_open > 0 ? fmt::format("; {} of {} values lack a finite bound on a side",
                                                             firm.half_open, firm.values)
                                               : "";
   if (firm.half_open < firm.values)
-    fmt::print("proven bounds of a value: at most {:.1e} mg apart{}\n", firm.widest_enclosure, open);
+    say("proven bounds of a value: at most {:.1e} mg apart{}\n", firm.widest_enclosure, open);
   else if (firm.values > 0)
-    fmt::print("proven bounds of a value: none that are finite on both sides\n");
+    say("proven bounds of a value: none that are finite on both sides\n");
   constexpr double kTurn = 1e-8;
   if (firm.values > 0)
-    fmt::print("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
-               kTurn * firm.sensitivity);
+    say("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
+        kTurn * firm.sensitivity);
   const int unique = ranges.unique.cast<int>().sum();
   const bool had_choice = !ranges.reason.empty() && (ranges.method == Method::kBarrier ||
                                                      ranges.state_kind == StateChoice::Kind::kNone);
-  if (had_choice) fmt::print("method {}: {}\n", to_string(ranges.method), ranges.reason);
-  if (has_estimates) return fmt::print("found by {}\n", describe_method(ranges));
+  if (had_choice) say("method {}: {}\n", to_string(ranges.method), ranges.reason);
+  if (has_estimates) return say("found by {}\n", describe_method(ranges));
   // Of an interval it is not known how many states attain the value.
   const bool has_states = ranges.method != Method::kBarrier || ranges.states.rows() > 0;
   if (has_states) {
-    fmt::print("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
-               counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
+    say("found by {}; {} of {} {} attained by a single state\n", describe_method(ranges), unique,
+        counted(ranges.objectives, "extremum", "extrema"), unique == 1 ? "is" : "are");
   } else {
-    fmt::print("found by {}\n", describe_method(ranges));
+    say("found by {}\n", describe_method(ranges));
   }
-  fmt::print("{}\n", describe_kept_states(ranges));
-  if (has_smallest_distances(ranges)) fmt::print("{}\n", describe_smallest_distances(ranges));
-  if (ranges.duals.are_kept()) fmt::print("{}\n", describe_duals(ranges.duals));
+  say("{}\n", describe_kept_states(ranges));
+  if (has_smallest_distances(ranges)) say("{}\n", describe_smallest_distances(ranges));
+  if (ranges.duals.are_kept()) say("{}\n", describe_duals(ranges.duals));
 }
 
 }  // namespace
 
 void print_report(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
-  fmt::print("{}, {}: {} unknown forces, {} equations, rank {}, nullity {}\n", describe_disks(packing),
-             counted(packing.contact_count(), "contact"), ranges.unknowns, ranges.equations, ranges.rank,
-             ranges.nullity);
+  say("{}, {}: {} unknown forces, {} equations, rank {}, nullity {}\n", describe_disks(packing),
+      counted(packing.contact_count(), "contact"), ranges.unknowns, ranges.equations, ranges.rank,
+      ranges.nullity);
   if (ranges.rank_ambiguous) {
-    fmt::print(
-        "The rank is ambiguous: rounding does not tell whether a singular value is zero (smallest that was "
+    say("The rank is ambiguous: rounding does not tell whether a singular value is zero (smallest that was "
         "counted: {:.1e}, largest that was not: {:.1e}). Every result is marked imprecise.\n",
         ranges.smallest_accepted, ranges.largest_rejected);
   }
   if (ranges.doubtful && !ranges.rank_ambiguous) {
-    fmt::print(
-        "Whether forces balance, or stay bounded, depends here on the last digits of the packing's numbers. "
+    say("Whether forces balance, or stay bounded, depends here on the last digits of the packing's numbers. "
         "Every result is marked imprecise.\n");
   }
   if (ranges.status == PolytopeStatus::kEmpty) {
     print_motion(packing, ranges);
-    fmt::print("\nwritten to {}\n", output);
+    say("\nwritten to {}\n", output);
     return;
   }
   const std::string blocks = ranges.blocks >= 0 ? ", " + counted(ranges.blocks, "independent block") : "";
-  fmt::print("polytope of contact states: {}, dimension {} ({}){}\n", to_string(ranges.status), ranges.dim,
-             describe_expected_dimension(packing), blocks);
+  say("polytope of contact states: {}, dimension {} ({}){}\n", to_string(ranges.status), ranges.dim,
+      describe_expected_dimension(packing), blocks);
   if (ranges.sliding >= 0)
-    fmt::print("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
+    say("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
   if (ranges.choice == ContactChoice::Kind::kSample || ranges.choice == ContactChoice::Kind::kList)
-    fmt::print("asked for: {} of {}\n", ranges.requested, counted(packing.contact_count(), "contact"));
+    say("asked for: {} of {}\n", ranges.requested, counted(packing.contact_count(), "contact"));
   print_quality(ranges);
   if (ranges.method == Method::kPivotingPaper) print_paper_work(ranges.paper);
   const bool has_smallest = has_smallest_distances(ranges);
   const auto line = [&](const char* name, const Eigen::VectorXd& values) {
     const Statistics s = statistics(values);
-    fmt::print("  {:<{}}   mean {:>9.4g}   max {:>9.4g}\n", name, has_smallest ? 6 : 2, s.mean, s.max);
+    say("  {:<{}}   mean {:>9.4g}   max {:>9.4g}\n", name, has_smallest ? 6 : 2, s.mean, s.max);
   };
   if (ranges.calibration >= 0) {
     print_estimates(packing, ranges);
   } else if (packing.contact_count() > 0) {
-    fmt::print("\nindeterminacy{} (mg)\n", ranges.draws > 0 ? " of the contacts that were drawn" : "");
+    say("\nindeterminacy{} (mg)\n", ranges.draws > 0 ? " of the contacts that were drawn" : "");
     line("δR", ranges.delta_R);
     line("δT", ranges.delta_T);
     if (ranges.states.rows() > 0) {
@@ -286,7 +283,7 @@ void print_report(const Packing& packing, const ForceRanges& ranges, const std::
   }
   double total = 0;
   for (const auto& [stage, seconds] : ranges.seconds) total += seconds;
-  fmt::print("\nwritten to {} ({:.2f} s)\n", output, total);
+  say("\nwritten to {} ({:.2f} s)\n", output, total);
 }
 
 }  // namespace indet::app

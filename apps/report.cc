@@ -11,6 +11,7 @@
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/presentation/html_report.h"
 #include "apps/output_files.h"
+#include "apps/say.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
@@ -85,7 +86,7 @@ int run(const ReportCommand& o, const Context& context) {
     std::cout << nlohmann::json{{"report", report}, {"packings", contents.tables.runs.rows()}}.dump(2)
               << '\n';
   } else if (context.prints_report()) {
-    fmt::print("written to {}\n", report);
+    say("written to {}\n", report);
   }
   return kDone;
 }

@@ -10,10 +10,11 @@
 #include "apps/bridge/perturb_record.h"
 #include "apps/command.h"
 #include "apps/condition.h"
-#include "apps/configuration.h"
+#include "apps/numbers.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
 #include "apps/sample_uniform.h"
+#include "apps/say.h"
 #include "libindet/base/error.h"
 #include "libindet/io/sampling_file.h"
 #include "libsim/perturb_sampling.h"
@@ -96,14 +97,14 @@ int run(SampleOptions o, const Context& context) {
     for (const auto& [name, value] : record.numbers) json[name] = value;
     std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
-    fmt::print("perturb-and-resolve: {} of {} accepted\n", ensemble.accepted,
-               counted(static_cast<std::int64_t>(ensemble.samples.size()), "solution"));
-    fmt::print("radius r = {:.4g} ± {:.2g} mg about their centre; distances from it vary by {:.4g} mg\n",
-               ensemble.r, ensemble.r_error, ensemble.spread);
-    fmt::print("the centre is {:.4g} mg away from the packing's forces\n", ensemble.start_distance);
-    fmt::print("accepted solutions balance to {:.1e} mg (before the polish to {:.1e} mg)\n",
-               ensemble.worst_residual, ensemble.worst_raw_residual);
-    if (!o.output.empty()) fmt::print("written to {}\n", o.output);
+    say("perturb-and-resolve: {} of {} accepted\n", ensemble.accepted,
+        counted(static_cast<std::int64_t>(ensemble.samples.size()), "solution"));
+    say("radius r = {:.4g} ± {:.2g} mg about their centre; distances from it vary by {:.4g} mg\n", ensemble.r,
+        ensemble.r_error, ensemble.spread);
+    say("the centre is {:.4g} mg away from the packing's forces\n", ensemble.start_distance);
+    say("accepted solutions balance to {:.1e} mg (before the polish to {:.1e} mg)\n", ensemble.worst_residual,
+        ensemble.worst_raw_residual);
+    if (!o.output.empty()) say("written to {}\n", o.output);
   }
   const bool all = ensemble.accepted == static_cast<int>(ensemble.samples.size());
   return all ? kDone : kUncertain;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/ranges_json.h"
+#include "apps/say.h"
 #include "apps/wording.h"
 
 namespace indet::app {
@@ -28,26 +29,24 @@ nlohmann::json sample_to_json(const ForceRanges& ranges) {
 }
 
 void print_sample(const Packing& packing, const ForceRanges& ranges) {
-  fmt::print("\nestimate for all {}, from {} drawn at random (seed {}), with {:.0f} % confidence\n",
-             counted(packing.contact_count(), "contact"), ranges.requested, ranges.sample_seed,
-             100 * kConfidence);
+  say("\nestimate for all {}, from {} drawn at random (seed {}), with {:.0f} % confidence\n",
+      counted(packing.contact_count(), "contact"), ranges.requested, ranges.sample_seed, 100 * kConfidence);
   if (ranges.draws > 0) {
-    fmt::print("  {} with replacement, with probabilities that follow the widths about the analytic centre\n",
-               counted(ranges.draws, "draw"));
+    say("  {} with replacement, with probabilities that follow the widths about the analytic centre\n",
+        counted(ranges.draws, "draw"));
     if (ranges.estimator == DrawEstimator::kRegression)
-      fmt::print("  means by regression on predictions of δ from these widths\n");
+      say("  means by regression on predictions of δ from these widths\n");
   }
   const int count = ranges.draws > 0 ? ranges.draws : ranges.requested;
   for (const auto& [name, e] : {std::pair("δR", ranges.sample_R), {"δT", ranges.sample_T}}) {
     if (std::isnan(e.low)) {
       const bool is_small = count < kFewestForInterval;
-      fmt::print(
-          "  {}   mean {:.4g} {}; no confidence interval{}\n", name, e.mean,
+      say("  {}   mean {:.4g} {}; no confidence interval{}\n", name, e.mean,
           ranges.draws > 0 ? "by the draws" : "in the sample",
           is_small ? fmt::format(" (--contacts sample:{} or more gives one)", kFewestForInterval) : "");
     } else {
-      fmt::print("  {}   mean between {:.4g} and {:.4g}; distribution function known to ± {:.2g}{}\n", name,
-                 e.low, e.high, e.band, ranges.draws > 0 ? " by experience" : "");
+      say("  {}   mean between {:.4g} and {:.4g}; distribution function known to ± {:.2g}{}\n", name, e.low,
+          e.high, e.band, ranges.draws > 0 ? " by experience" : "");
     }
   }
 }

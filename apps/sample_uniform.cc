@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "apps/bridge/uniform_record.h"
+#include "apps/say.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/equilibrium/contact_state.h"
@@ -81,42 +82,38 @@ void print(const Packing& packing, const Findings& f, const UniformSettings& set
   const UniformSample& s = f.sample;
   const auto mg = [&](const InternalForce& force) { return f.polytope.problem.units.weights(force).value(); };
   if (!f.body) {
-    fmt::print("polytope of contact states: a point; the only state has the norm ‖F‖ = {:.4g} mg\n",
-               mg(s.mean_norm));
+    say("polytope of contact states: a point; the only state has the norm ‖F‖ = {:.4g} mg\n",
+        mg(s.mean_norm));
     return;
   }
-  fmt::print("polytope of contact states: dimension {}, {}\n", f.polytope.dim,
-             counted(static_cast<std::int64_t>(f.polytope.blocks.size()), "independent block"));
-  fmt::print("radius r = {:.4g} ± {:.2g} mg about the centre; distances from it vary by {:.4g} mg\n", mg(s.r),
-             mg(s.r_error), mg(s.spread));
-  fmt::print("norm ‖F‖: mean {:.4g} mg, standard deviation {:.2g} mg\n", mg(s.mean_norm),
-             mg(s.norm_deviation));
+  say("polytope of contact states: dimension {}, {}\n", f.polytope.dim,
+      counted(static_cast<std::int64_t>(f.polytope.blocks.size()), "independent block"));
+  say("radius r = {:.4g} ± {:.2g} mg about the centre; distances from it vary by {:.4g} mg\n", mg(s.r),
+      mg(s.r_error), mg(s.spread));
+  say("norm ‖F‖: mean {:.4g} mg, standard deviation {:.2g} mg\n", mg(s.mean_norm), mg(s.norm_deviation));
   const std::string slowest =
       s.slowest == 2 * packing.contact_count()
           ? "‖F‖"
           : fmt::format("{} of contact {}", s.slowest % 2 == 0 ? "R" : "T", s.slowest / 2);
-  fmt::print(
-      "{} after {} sweeps of each of {} chains: R-hat at most {:.4f}; at least {:.0f} (bulk) and {:.0f} "
+  say("{} after {} sweeps of each of {} chains: R-hat at most {:.4f}; at least {:.0f} (bulk) and {:.0f} "
       "(tail) effective samples of each quantity, fewest of {}\n",
       s.converged ? "converged" : fmt::format("NOT converged (limit {})", settings.sampling.limit), s.sweeps,
       s.chains, s.rhat, s.bulk, s.tail, slowest);
   if (f.placement) {
-    fmt::print(
-        "simulated state among the samples: {:.4g} mg from the centre (percentile {:.1f}); percentile {:.1f} "
+    say("simulated state among the samples: {:.4g} mg from the centre (percentile {:.1f}); percentile {:.1f} "
         "of the norm, {:.1f} of ΣR\n",
         f.placement->distance, f.placement->distance_percentile, f.placement->norm_percentile,
         f.placement->normal_force_percentile);
   }
   if (f.shape) {
-    fmt::print(
-        "size: largest ball inside of radius {:.4g} mg; diameter between {:.4g} and {:.4g} mg; mean width "
+    say("size: largest ball inside of radius {:.4g} mg; diameter between {:.4g} and {:.4g} mg; mean width "
         "{:.4g} ± {:.2g} mg\n",
         f.shape->inscribed_radius, f.shape->diameter_lower, f.shape->diameter_upper, f.shape->mean_width,
         f.shape->mean_width_error);
     if (f.shape->unsolved > 0)
-      fmt::print("NOT solved: {} for widths\n", counted(f.shape->unsolved, "linear program"));
-    fmt::print("natural logarithm of the volume (mg to the power {}): {:.4g} ± {:.2g}\n", f.polytope.dim,
-               f.volume->log_volume, f.volume->error);
+      say("NOT solved: {} for widths\n", counted(f.shape->unsolved, "linear program"));
+    say("natural logarithm of the volume (mg to the power {}): {:.4g} ± {:.2g}\n", f.polytope.dim,
+        f.volume->log_volume, f.volume->error);
   }
 }
 
@@ -234,7 +231,7 @@ int sample_uniformly(const Hdf5File& file, const std::string& output, const Pack
     std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
     print(packing, f, settings);
-    if (!output.empty()) fmt::print("written to {} ({:.2f} s)\n", output, f.sample.seconds);
+    if (!output.empty()) say("written to {} ({:.2f} s)\n", output, f.sample.seconds);
   }
   const bool all = f.sample.converged && (!f.shape || f.shape->unsolved == 0);
   return all && !f.polytope.doubtful ? kDone : kUncertain;

@@ -13,13 +13,15 @@
 
 #include "apps/bridge/simulation_values.h"
 #include "apps/command.h"
-#include "apps/configuration.h"
 #include "apps/memory_limit.h"
+#include "apps/numbers.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
+#include "apps/say.h"
 #include "apps/simulate_arguments.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/base/toml_text.h"
 #include "libindet/io/destination.h"
 #include "libindet/io/simulation_file.h"
 #include "libsim/memory_estimate.h"
@@ -138,7 +140,7 @@ Start start_of(const SimulateOptions& o, const CLI::App& command, const Context&
     const sim::Friction friction = sim::friction_of(packing, {o.mu, o.wall_mu ? o.wall_mu : o.mu});
     Start start{.world = sim::world_of(packing, friction), .seed = packing.origin.seed, .description = ""};
     if (o.seed) start.seed = static_cast<std::int64_t>(*o.seed);
-    start.description = "from = \"" + o.from + "\"\n" + packing.origin.config;
+    start.description = "from = " + toml_text(o.from) + "\n" + packing.origin.config;
     const Scene usual{.disks = packing.disk_count(), .radius_max = packing.max_radius()};
     start.width = packing.origin.width;
     start.height =
@@ -185,14 +187,14 @@ nlohmann::json to_json(const SimulateOptions& o, const Packing& packing, const S
 
 void print_report(const Packing& packing, const sim::Simulation& result, double seconds) {
   const sim::Polished& polished = result.polished;
-  fmt::print("{}, seed {}: {}, {}, mean R = {:.4g} mg, mean overlap {:.2e} r_max\n", packing.origin.protocol,
-             packing.origin.seed, counted(packing.disk_count(), "disk"),
-             counted(packing.contact_count(), "contact"), result.mean_force, result.mean_overlap);
-  fmt::print("{}\n", result.settled.reason);
-  fmt::print("polished forces balance to {:.2e} mg, and are {:.2e} mg away from the simulated ones\n",
-             polished.residual, polished.distance);
-  fmt::print("{}\n", counted(polished.sliding, "sliding contact"));
-  fmt::print("{} in {:.2f} s\n", counted(result.settled.report.steps, "step"), seconds);
+  say("{}, seed {}: {}, {}, mean R = {:.4g} mg, mean overlap {:.2e} r_max\n", packing.origin.protocol,
+      packing.origin.seed, counted(packing.disk_count(), "disk"), counted(packing.contact_count(), "contact"),
+      result.mean_force, result.mean_overlap);
+  say("{}\n", result.settled.reason);
+  say("polished forces balance to {:.2e} mg, and are {:.2e} mg away from the simulated ones\n",
+      polished.residual, polished.distance);
+  say("{}\n", counted(polished.sliding, "sliding contact"));
+  say("{} in {:.2f} s\n", counted(result.settled.report.steps, "step"), seconds);
 }
 
 std::filesystem::path checkpoint_path_of(const SimulateOptions& o) { return o.output + ".checkpoint"; }
@@ -266,7 +268,7 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
     std::cout << to_json(o, packing, record, seconds).dump(2) << '\n';
   } else if (context.prints_report()) {
     print_report(packing, result, seconds);
-    fmt::print("written to {}\n", o.output);
+    say("written to {}\n", o.output);
   }
   if (result.polished.balanced) return kDone;
   context.warn(fmt::format("{}: the forces do not balance: {}", o.output, result.polished.reason));

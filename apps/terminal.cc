@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "apps/command.h"
+#include "libindet/base/printable.h"
 #include "libindet/base/remaining_time.h"
 
 namespace indet::app {
@@ -113,12 +114,12 @@ ProgressCallback Context::progress() const {
 }
 
 void Context::note(const std::string& text) const {
-  if (!quiet) std::cerr << text << '\n';
+  if (!quiet) std::cerr << printable(text) << '\n';
 }
 
 void Context::warn(const std::string& text) const {
   const bool colour = isatty(STDERR_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
-  std::cerr << (colour ? "\x1b[33mwarning:\x1b[0m " : "warning: ") << text << '\n';
+  std::cerr << (colour ? "\x1b[33mwarning:\x1b[0m " : "warning: ") << printable(text) << '\n';
 }
 
 }  // namespace indet::app

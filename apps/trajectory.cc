@@ -7,9 +7,10 @@
 #include <string>
 
 #include "apps/command.h"
-#include "apps/configuration.h"
+#include "apps/numbers.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
+#include "apps/say.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/trajectory_picture.h"
 #include "libindet/io/simulation_file.h"
@@ -49,9 +50,9 @@ int run(const TrajectoryOptions& o, const Context& context) {
                      .dump(2)
               << '\n';
   } else if (context.prints_report()) {
-    fmt::print("{} from t = {:.4g} to {:.4g}\nwritten to {}\n",
-               counted(static_cast<std::int64_t>(trajectory.size()), "frame"), trajectory.front().time,
-               trajectory.back().time, o.output);
+    say("{} from t = {:.4g} to {:.4g}\nwritten to {}\n",
+        counted(static_cast<std::int64_t>(trajectory.size()), "frame"), trajectory.front().time,
+        trajectory.back().time, o.output);
   }
   return kDone;
 }

@@ -14,7 +14,9 @@
 #include "apps/command.h"
 #include "apps/exact_analysis.h"
 #include "apps/packing_input.h"
+#include "apps/say.h"
 #include "libindet/io/bias_file.h"
+#include "libindet/io/file_kind.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/sampling_file.h"
@@ -37,8 +39,11 @@ struct Part {
 
 Verification check_digests(const Hdf5File& file) {
   Comparisons compare;
-  compare.require(compute_digests(file).match(),
-                  "content_sha256: some number is not the one that was written");
+  const Digests digests = compute_digests(file);
+  compare.require(digests.numbers_match(), "content_sha256: some number is not the one that was written");
+  compare.require(digests.texts_match(), "text_sha256: some text is not the one that was written");
+  if (digests.stored_texts.empty())
+    compare.leave_unchecked("texts (a version of indet wrote the file that stored no digest of them)");
   // Groups of which nothing is computed again.
   std::string accounts;
   for (const char* group : {"/simulation", "/trajectory", "/ensemble"}) {
@@ -50,6 +55,10 @@ Verification check_digests(const Hdf5File& file) {
 
 std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
   std::vector<Part> parts = {{"file", check_digests(file)}};
+  if (kind_of(file) == FileKind::kEnsemble) {
+    parts.front().found.unchecked.emplace_back("tables of the ensemble (verify its members instead)");
+    return parts;
+  }
   const Packing packing = read_packing(file);
   std::optional<ForceRanges> ranges;
   std::optional<SamplingRecord> sampling;
@@ -98,25 +107,24 @@ Verification total_of(const std::vector<Part>& parts) {
 }
 
 void print(const std::string& path, const std::vector<Part>& parts, const Verification& total) {
-  fmt::print("{}: {}, {}\n", path, counted(total.checks, "check"),
-             counted(total.contradictions, "contradiction"));
-  for (const std::string& message : total.messages) fmt::print("  {}\n", message);
+  say("{}: {}, {}\n", path, counted(total.checks, "check"), counted(total.contradictions, "contradiction"));
+  for (const std::string& message : total.messages) say("  {}\n", message);
   for (const auto& [title, found] : parts) {
     if (found.states == 0) continue;
-    fmt::print("{}: {}, imbalance up to {:.1e} mg, contact conditions violated by up to {:.1e} mg\n", title,
-               counted(found.states, title == "force ranges" ? "extremal state" : "state"),
-               found.worst_imbalance, found.worst_violation);
+    say("{}: {}, imbalance up to {:.1e} mg, contact conditions violated by up to {:.1e} mg\n", title,
+        counted(found.states, title == "force ranges" ? "extremal state" : "state"), found.worst_imbalance,
+        found.worst_violation);
     if (found.optima > 0)
-      fmt::print("{}: {}, optimal but for gaps up to {:.1e}\n", title,
-                 counted(found.optima, "certified value"), found.worst_optimality_gap);
+      say("{}: {}, optimal but for gaps up to {:.1e}\n", title, counted(found.optima, "certified value"),
+          found.worst_optimality_gap);
   }
-  if (total.states == 0) fmt::print("there are no contact states in the file\n");
+  if (total.states == 0) say("there are no contact states in the file\n");
   const auto list = [](const char* heading, const std::vector<std::string>& texts) {
-    if (!texts.empty()) fmt::print("{}:\n", heading);
-    for (const std::string& text : texts) fmt::print("  {}\n", text);
+    if (!texts.empty()) say("{}:\n", heading);
+    for (const std::string& text : texts) say("  {}\n", text);
   };
   list("not solved, or uncertain, as the file itself says", total.unsolved);
-  for (const std::string& text : total.remarks) fmt::print("{}\n", text);
+  for (const std::string& text : total.remarks) say("{}\n", text);
   list("not computed again, guarded by the digest alone", total.unchecked);
 }
 
@@ -142,23 +150,22 @@ nlohmann::json to_json(const ExactCheck& check, double seconds) {
 
 void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seconds) {
   if (ranges.status == PolytopeStatus::kEmpty) {
-    fmt::print("exact arithmetic: {} that no contact forces are admissible",
-               check.proves_emptiness ? "proven" : "not proven");
+    say("exact arithmetic: {} that no contact forces are admissible",
+        check.proves_emptiness ? "proven" : "not proven");
   } else {
-    fmt::print(
-        "exact arithmetic: {} proven, {} repaired, {} refuted, {} undecided; {} outside of their bounds",
+    say("exact arithmetic: {} proven, {} repaired, {} refuted, {} undecided; {} outside of their bounds",
         check.proven, check.repaired, check.refuted, check.undecided, check.contradictions);
   }
-  fmt::print("; {} ({:.1f} s)\n", counted(check.pivots, "pivot"), seconds);
-  for (const std::string& message : check.messages) fmt::print("  {}\n", message);
+  say("; {} ({:.1f} s)\n", counted(check.pivots, "pivot"), seconds);
+  for (const std::string& message : check.messages) say("  {}\n", message);
   if (check.proven + check.repaired > 0)
-    fmt::print("worst |stored − exact|: {:.1e} mg, of the certified {:.1e} mg\n", check.worst_error,
-               check.worst_certified_error);
+    say("worst |stored − exact|: {:.1e} mg, of the certified {:.1e} mg\n", check.worst_error,
+        check.worst_certified_error);
 }
 
 int run(const VerifyCommand& options, const Context& context) {
   const std::string& path = options.file;
-  const Hdf5File file = open_packing(path);
+  const Hdf5File file = open_packing_or_ensemble(path);
   const std::vector<Part> parts = verify_file(file, context);
   const Verification result = total_of(parts);
   std::optional<ExactCheck> check;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
 
@@ -51,6 +52,30 @@ std::vector<Wall> walls_of(const Scene& scene) {
   return walls;
 }
 
+/// What no weight, moment of inertia, or square of them, leaves the range of a double with.
+constexpr double kLeast = 1e-30;
+constexpr double kMost = 1e30;
+
+/// The first dimensional number of the scene that is out of this range; 0 where `may_be_zero`.
+std::optional<std::string> out_of_range(const Scene& scene) {
+  struct Named {
+    const char* name;
+    double value;
+    bool may_be_zero;
+  };
+  for (const auto& [name, value, may_be_zero] :
+       {Named{"radius", scene.radius_min, false}, Named{"radius", scene.radius_max, false},
+        Named{"density", scene.density, false}, Named{"gravity", scene.gravity.stableNorm(), true},
+        Named{"force_unit", scene.force_unit, true}, Named{"width", scene.width, true},
+        Named{"height", scene.height, true}, Named{"friction", scene.friction.disk, true},
+        Named{"friction", scene.friction.wall, true}}) {
+    if ((may_be_zero && value == 0) || (value >= kLeast && value <= kMost)) continue;
+    return fmt::format("{} must be {}from {:g} to {:g}, but is {}", name, may_be_zero ? "0, or " : "", kLeast,
+                       kMost, value);
+  }
+  return {};
+}
+
 /// Height at which the lowest row starts: a funnel must hold it.
 double base_height(const Scene& scene) {
   if (scene.container != Container::kFunnel) return 0;
@@ -77,7 +102,8 @@ Container container_from(const std::string& name) {
   for (const Container c : {Container::kBox, Container::kFloor, Container::kFunnel, Container::kNone}) {
     if (to_string(c) == name) return c;
   }
-  throw InputError(fmt::format("there is no container \"{}\": it must be box, floor, funnel or none", name));
+  throw InputError(
+      fmt::format("there is no container \"{}\": it must be box, floor, funnel or none", excerpt(name)));
 }
 
 Scene Scene::resolved() const {
@@ -107,7 +133,8 @@ std::optional<std::string> Scene::defect() const {
   }
   if (!finite(gravity.sum())) return "gravity must be two finite numbers";
   if (!(force_unit >= 0) || !finite(force_unit)) return "force_unit must be positive";
-  if (gravity.norm() == 0 && force_unit == 0) return "a scene without gravity must name its force_unit";
+  if (const auto reason = out_of_range(*this)) return reason;
+  if (gravity.isZero(0) && force_unit == 0) return "a scene without gravity must name its force_unit";
   if (!(jitter >= 0 && jitter <= 1)) return fmt::format("jitter must be in [0, 1], but is {}", jitter);
   if (columns < 0) return fmt::format("columns must not be negative, but is {}", columns);
   if (!(funnel_angle > 0 && funnel_angle < 90)) {
@@ -115,7 +142,8 @@ std::optional<std::string> Scene::defect() const {
   }
   for (const Wall& w : walls) {
     if (!finite(w.point.sum()) || !(std::abs(w.normal.norm() - 1) < tolerance::kNormalLength)) {
-      return fmt::format("wall \"{}\": its point must be finite, and its normal have length 1", w.name);
+      return fmt::format("wall \"{}\": its point must be finite, and its normal have length 1",
+                         excerpt(w.name));
     }
   }
   const Scene full = resolved();

@@ -3,11 +3,17 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/base/toml_text.h"
 
 namespace indet::sim {
 namespace {
@@ -18,19 +24,31 @@ class Reader {
   explicit Reader(std::string source) : source_(std::move(source)) {}
 
   [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& reason) const {
-    throw InputError(fmt::format("{}:{}: {} {}", source_, node.source().begin.line, key, reason));
+    throw InputError(fmt::format("{}:{}: {} {}", source_, node.source().begin.line, excerpt(key), reason));
   }
   double number(const toml::node& node, const std::string& key) const {
-    if (const auto value = node.value<double>()) return *value;
-    fail(node, key, "must be a number");
+    const auto value = node.value<double>();
+    if (!value) fail(node, key, "must be a number");
+    if (!std::isfinite(*value)) fail(node, key, fmt::format("must be finite, but is {}", *value));
+    return *value;
   }
-  std::int64_t integer(const toml::node& node, const std::string& key) const {
-    if (const auto* value = node.as_integer()) return value->get();
-    fail(node, key, "must be an integer");
+  template <class Integer>
+  Integer integer(const toml::node& node, const std::string& key, Integer least) const {
+    const auto* value = node.as_integer();
+    if (value == nullptr) fail(node, key, "must be an integer");
+    const std::int64_t number = value->get();
+    if (number < static_cast<std::int64_t>(least) || !std::in_range<Integer>(number)) {
+      const auto most = std::min<std::uint64_t>(std::numeric_limits<Integer>::max(),
+                                                std::numeric_limits<std::int64_t>::max());
+      fail(node, key, fmt::format("must be from {} to {}, but is {}", least, most, number));
+    }
+    return static_cast<Integer>(number);
   }
   std::string text(const toml::node& node, const std::string& key) const {
-    if (const auto* value = node.as_string()) return value->get();
-    fail(node, key, "must be a string");
+    const auto* value = node.as_string();
+    if (value == nullptr) fail(node, key, "must be a string");
+    if (value->get().find('\0') != std::string::npos) fail(node, key, "must not hold a zero byte");
+    return value->get();
   }
   Vector2 pair(const toml::node& node, const std::string& key) const {
     const toml::array* array = node.as_array();
@@ -97,7 +115,7 @@ Friction read_friction(const Reader& reader, const toml::node& node, Friction fr
 
 void read_key(const Reader& reader, const std::string& key, const toml::node& value, Scene& scene) {
   if (key == "disks") {
-    scene.disks = static_cast<int>(reader.integer(value, key));
+    scene.disks = reader.integer(value, key, 1);
   } else if (key == "radius") {
     const Vector2 radius = reader.pair(value, key);
     scene.radius_min = radius.x();
@@ -119,11 +137,11 @@ void read_key(const Reader& reader, const std::string& key, const toml::node& va
   } else if (key == "funnel_angle") {
     scene.funnel_angle = reader.number(value, key);
   } else if (key == "columns") {
-    scene.columns = static_cast<int>(reader.integer(value, key));
+    scene.columns = reader.integer(value, key, 0);
   } else if (key == "jitter") {
     scene.jitter = reader.number(value, key);
   } else if (key == "seed") {
-    scene.seed = static_cast<std::uint64_t>(reader.integer(value, key));
+    scene.seed = reader.integer(value, key, std::uint64_t{0});
   } else if (key == "wall") {
     const toml::array* walls = value.as_array();
     if (walls == nullptr) reader.fail(value, key, "must be written as [[wall]]");
@@ -171,7 +189,7 @@ std::string to_toml(const Scene& scene) {
   line("jitter", fmt::format("{}", scene.jitter));
   line("seed", fmt::format("{}", scene.seed));
   for (const Wall& wall : scene.walls) {
-    text += fmt::format("[[wall]]\nname = \"{}\"\npoint = [{}, {}]\nnormal = [{}, {}]\n", wall.name,
+    text += fmt::format("[[wall]]\nname = {}\npoint = [{}, {}]\nnormal = [{}, {}]\n", toml_text(wall.name),
                         wall.point.x(), wall.point.y(), wall.normal.x(), wall.normal.y());
   }
   return text;

@@ -61,6 +61,7 @@ using Reason = std::optional<std::string>;
 
 Reason rigid_defect(const ContactDynamicsOptions& cd) {
   if (!(cd.dt > 0) || !std::isfinite(cd.dt)) return fmt::format("dt must be positive, but is {}", cd.dt);
+  if (!(cd.residual > 0)) return fmt::format("residual must be positive, but is {}", cd.residual);
   if (!(cd.tolerance >= 0)) return fmt::format("tolerance must not be negative, but is {}", cd.tolerance);
   if (cd.max_sweeps < 1) return fmt::format("sweeps must be at least 1, but is {}", cd.max_sweeps);
   if (cd.start_sweeps < 1) return fmt::format("start sweeps must be at least 1, but is {}", cd.start_sweeps);
@@ -76,6 +77,8 @@ Reason spring_defect(const World& world, const MolecularDynamicsOptions& md) {
   if (!(md.k > 0) || !std::isfinite(md.k)) return fmt::format("stiffness must be positive, but is {}", md.k);
   if (!(md.gamma >= 0) || !std::isfinite(md.gamma))
     return fmt::format("damping must not be negative, but is {}", md.gamma);
+  if (!(md.residual > 0)) return fmt::format("residual must be positive, but is {}", md.residual);
+  if (!(md.tolerance >= 0)) return fmt::format("tolerance must not be negative, but is {}", md.tolerance);
   if (!(md.dt >= 0)) return fmt::format("dt must be positive, but is {}", md.dt);
   if (md.max_sweeps < 1) return fmt::format("sweeps must be at least 1, but is {}", md.max_sweeps);
   if (is_implicit(md)) {

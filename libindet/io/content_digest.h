@@ -12,7 +12,13 @@ namespace indet::hdf5 {
 ///
 ///     key, 0, rank, extents, values          (integers i8, reals as their bits, all little-endian)
 ///
-/// docs/file-format.md defines it so that it can be recomputed with h5py. Text does not enter.
+/// docs/file-format.md defines it so that it can be recomputed with h5py. Text does not enter: what is
+/// computed has the same digest, whatever the files were called that it was computed from.
 std::string sha256(const Session& session, const std::vector<std::string>& roots);
+
+/// The same over all texts below `roots`, each with its length (i8) before its bytes, and over the attributes
+/// of the root. What tells of the digests themselves does not enter: attributes `sha256`, and of the root
+/// `content_sha256`, `text_sha256`, and `complete`, which comes last.
+std::string text_sha256(const Session& session, const std::vector<std::string>& roots);
 
 }  // namespace indet::hdf5

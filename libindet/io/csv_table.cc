@@ -13,13 +13,15 @@
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 
 namespace indet {
 namespace {
 
 constexpr std::string_view kSeparators = ",;\t";
 
-/// The lines of a file that hold something, without comments, and messages that name them.
+/// The lines of a file that hold something, without comments, and messages that name them. A line whose last
+/// field has an open quotation mark goes on in the next one.
 class CsvLines {
  public:
   CsvLines(std::string source, std::string_view text) : source_(std::move(source)), reader_(text) {}
@@ -27,42 +29,60 @@ class CsvLines {
   /// False at the end of the text.
   bool next(std::string_view* line) {
     while (reader_.next(line)) {
-      require_line_end(*line);
-      *line = without_comment(*line);
+      number_ = reader_.line_number();
+      std::string_view more;
+      while (!find_end(line)) {
+        if (!reader_.next(&more)) fail("a double quote is not closed");
+        *line = {line->data(), more.data() + more.size()};
+      }
       if (!trimmed(*line).empty()) return true;
     }
     return false;
   }
-  int number() const { return reader_.line_number(); }
+  int number() const { return number_; }
   [[noreturn]] void fail(const std::string& reason) const {
     throw InputError(fmt::format("{}:{}: {}", source_, number(), reason));
   }
 
  private:
-  void require_line_end(std::string_view line) const {
-    const std::size_t end = line.find('\r');
-    if (end == std::string_view::npos || line.find_first_not_of('\r', end) == std::string_view::npos) return;
-    fail("a carriage return alone ends this line: save the file with the line ends of Unix or Windows");
-  }
-  /// A # within quotes does not begin a comment.
-  std::string_view without_comment(std::string_view line) const {
+  /// Cuts a comment off, which a # within quotes does not begin. False if a quotation mark is open at the
+  /// end.
+  bool find_end(std::string_view* line) const {
     bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (line[i] == '"') quoted = !quoted;
-      if (line[i] == '#' && !quoted) return line.substr(0, i);
+    for (std::size_t i = 0; i < line->size(); ++i) {
+      const char c = (*line)[i];
+      if (c == '"') quoted = !quoted;
+      if (c == '\r' && !quoted && line->find_first_not_of('\r', i) != std::string_view::npos)
+        fail("a carriage return alone ends this line: save the file with the line ends of Unix or Windows");
+      if (c != '#' || quoted) continue;
+      *line = line->substr(0, i);
+      return true;
     }
-    if (quoted) fail("a double quote is not closed");
-    return line;
+    return !quoted;
   }
 
   std::string source_;
   LineReader reader_;
+  int number_ = 0;
 };
 
 std::string_view unquoted(std::string_view field) {
   field = trimmed(field);
   if (field.size() < 2 || field.front() != '"' || field.back() != '"') return field;
-  return trimmed(field.substr(1, field.size() - 2));
+  return field.substr(1, field.size() - 2);
+}
+
+/// Makes one quotation mark of two, in the text itself.
+std::string_view with_single_marks(std::string_view field, std::string& text) {
+  if (field.find("\"\"") == std::string_view::npos) return field;
+  const auto begin = text.begin() + (field.data() - text.data());
+  auto end = begin;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const char c = field[i];
+    *end++ = c;
+    if (c == '"' && i + 1 < field.size() && field[i + 1] == '"') ++i;
+  }
+  return field.substr(0, static_cast<std::size_t>(end - begin));
 }
 
 std::vector<std::string_view> split_fields(std::string_view line, char separator) {
@@ -129,8 +149,8 @@ class DecimalMarks {
   };
   void note(std::string_view field, Seen& seen, const Seen& other) const {
     if (other.line > 0) {
-      lines_.fail(fmt::format("the number \"{}\" has another decimal mark than \"{}\" in line {}", field,
-                              other.field, other.line));
+      lines_.fail(fmt::format("the number \"{}\" has another decimal mark than \"{}\" in line {}",
+                              excerpt(field), excerpt(other.field), other.line));
     }
     if (seen.line == 0) seen = {lines_.number(), std::string(field)};
   }
@@ -146,11 +166,11 @@ bool is_index_name(std::string_view name) { return name.empty() || name == "Unna
 
 std::vector<std::string> read_header(const CsvLines& lines, std::string_view line, char separator) {
   std::vector<std::string> columns;
-  for (const std::string_view field : split_fields(line, separator)) columns.emplace_back(field);
+  for (const std::string_view field : split_fields(line, separator)) columns.emplace_back(trimmed(field));
   double value = 0;
   if (parse_number(columns.front(), &value)) {
-    lines.fail(
-        fmt::format("the first line must name the columns, but begins with the number {}", columns.front()));
+    lines.fail(fmt::format("the first line must name the columns, but begins with the number {}",
+                           excerpt(columns.front())));
   }
   return columns;
 }
@@ -161,7 +181,7 @@ void require_row_number(const CsvLines& lines, std::string_view field) {
   lines.fail(
       fmt::format("the first column has no name, so it must be the row numbers of pandas, but here it "
                   "has \"{}\": name it, or leave it out",
-                  field));
+                  excerpt(field)));
 }
 
 }  // namespace
@@ -190,6 +210,7 @@ Table read_csv(const std::filesystem::path& path) {
       require_row_number(lines, fields.front());
       fields.erase(fields.begin());
     }
+    for (std::string_view& field : fields) field = with_single_marks(field, *text);
     const bool hint = separator == ',' && fields.size() > table.columns().size();
     table.add_row(lines.number(), std::move(fields),
                   hint ? "; decimal commas are read only where semicolons separate the fields" : "");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <system_error>
@@ -31,11 +30,12 @@ constexpr std::string_view kTableBegin = "contact,a,b,x,y,nx,ny,gap,mu";
 /// The shortest text that reads back as the same number; empty for NaN.
 std::string field(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
-/// A text that may hold commas and comment signs.
-std::string quoted(std::string text) {
-  std::replace(text.begin(), text.end(), '"', '\'');
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? text : "\"" + text + "\"";
+/// A text in quotation marks, those within it doubled (RFC 4180).
+std::string quoted(const std::string& text) {
+  if (text.empty()) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
 }
 
 /// Empty for a bound that there is not.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/table.h"
 
 namespace indet {
@@ -21,7 +22,7 @@ DensityRule DensityRule::parse(const std::vector<std::string>& items) {
 
 void DensityRule::add(const std::string& item) {
   const auto refuse = [&](const std::string& reason) {
-    throw InputError(fmt::format("density \"{}\": {}", item, reason));
+    throw InputError(fmt::format("density \"{}\": {}", excerpt(item), reason));
   };
   const std::string forms = "the forms are sphere=2500, disk=1.27, sphere:1=2500, disk:1=1.27";
   const std::size_t equals = item.find('=');

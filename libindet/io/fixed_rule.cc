@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/table.h"
 
 namespace indet {
@@ -22,7 +23,8 @@ FixedRule FixedRule::parse(const std::vector<std::string>& items) {
     const std::string_view last = dash == std::string_view::npos ? first : rest.substr(dash + 1);
     if (!parse_number(first, &item.first) || !parse_number(last, &item.last) || item.first > item.last ||
         item.first < 0) {
-      throw InputError(fmt::format("fixed \"{}\": the forms are type=2, an id as 17, or ids as 29-34", text));
+      throw InputError(
+          fmt::format("fixed \"{}\": the forms are type=2, an id as 17, or ids as 29-34", excerpt(text)));
     }
     rule.items_.push_back(std::move(item));
   }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/table.h"
 
 namespace indet {
@@ -22,8 +23,8 @@ double checked(double friction, std::string_view text) {
 }
 
 [[noreturn]] void refuse(const std::string& item) {
-  throw InputError(
-      fmt::format("friction \"{}\": the forms are 0.3, disk=0.4, wall=0, wall:NAME=0.2, type:1-2=0.3", item));
+  throw InputError(fmt::format(
+      "friction \"{}\": the forms are 0.3, disk=0.4, wall=0, wall:NAME=0.2, type:1-2=0.3", excerpt(item)));
 }
 
 bool is_type(std::int64_t number) { return number >= 0 && number <= std::numeric_limits<int>::max(); }
@@ -75,7 +76,7 @@ void FrictionRule::add(const std::string& item) {
   } else {
     refuse(item);
   }
-  if (!is_new) throw InputError(fmt::format("friction \"{}\": this is given twice", item));
+  if (!is_new) throw InputError(fmt::format("friction \"{}\": this is given twice", excerpt(item)));
 }
 
 std::optional<double> FrictionRule::of_disks(int type_a, int type_b) const {

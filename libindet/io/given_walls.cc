@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/table.h"
 
 namespace indet {
@@ -22,11 +23,11 @@ GivenWalls parse_walls(const std::vector<std::string>& items, const Plane& plane
     const char letter = has_form ? item[equals + 1] : '\0';
     if (letter != Plane::letter(plane.first) && letter != Plane::letter(plane.second)) {
       throw InputError(fmt::format("wall \"{}\" must have the form NAME={}:POSITION or NAME={}:POSITION",
-                                   item, Plane::letter(plane.first), Plane::letter(plane.second)));
+                                   excerpt(item), Plane::letter(plane.first), Plane::letter(plane.second)));
     }
     wall.axis = letter == Plane::letter(plane.first) ? 0 : 1;
     if (!walls.emplace(item.substr(0, equals), wall).second) {
-      throw InputError(fmt::format("wall {} is given twice", item.substr(0, equals)));
+      throw InputError(fmt::format("wall {} is given twice", excerpt(item.substr(0, equals))));
     }
   }
   return walls;

@@ -258,17 +258,7 @@ std::vector<std::uint8_t> Hdf5File::read_enum(const std::string& path, const Sha
 
 std::vector<std::string> Hdf5File::read_strings(const std::string& path, std::size_t count) const {
   const Silence silence;
-  const hdf5::Session& session = state_->session;
-  const Handle dataset = hdf5::open_checked(session, path, {H5T_STRING, "text", 64}, {count});
-  const Handle found = session.own(H5Dget_type(dataset.get()), path);
-  if (H5Tis_variable_str(found.get()) <= 0) session.fail(path, "must hold text of variable length");
-  const Handle type = session.string_type();
-  const Handle space = session.own(H5Dget_space(dataset.get()), path);
-  std::vector<char*> pointers = hdf5::read_all<char*>(session, dataset, type.get(), {count}, path);
-  std::vector<std::string> values;
-  for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
-  H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, static_cast<void*>(pointers.data()));
-  return values;
+  return hdf5::dataset_texts(state_->session, path, count);
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
@@ -343,6 +333,11 @@ std::vector<std::string> Hdf5File::datasets(const std::string& object) const {
   std::erase_if(objects, [&](const std::string& path) { return !hdf5::is_dataset(state_->session, path); });
   std::sort(objects.begin(), objects.end());
   return objects;
+}
+
+std::string Hdf5File::text_sha256(const std::vector<std::string>& objects) const {
+  const Silence silence;
+  return hdf5::text_sha256(state_->session, objects);
 }
 
 std::string Hdf5File::sha256(const std::vector<std::string>& objects) const {

@@ -117,6 +117,8 @@ class Hdf5File {
 
   /// SHA-256 (64 hexadecimal digits) over all numbers below `objects`, as docs/file-format.md defines it.
   std::string sha256(const std::vector<std::string>& objects) const;
+  /// The same over all texts there, and the attributes of the root but for its digests.
+  std::string text_sha256(const std::vector<std::string>& objects) const;
 
  private:
   struct State;

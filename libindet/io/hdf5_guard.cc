@@ -164,24 +164,48 @@ std::vector<double> attribute_numbers(const Session& session, const Handle& attr
   return values;
 }
 
-std::string attribute_text(const Session& session, const Handle& attribute, const std::string& place) {
+std::vector<std::string> attribute_texts(const Session& session, const Handle& attribute,
+                                         const std::string& place, std::size_t most) {
   const Handle found = session.own(H5Aget_type(attribute.get()), place);
   if (H5Tget_class(found.get()) != H5T_STRING) session.fail(place, "must be text");
-  if (attribute_count(session, attribute, place, 1) != 1) session.fail(place, "must be one text");
+  const std::size_t count = attribute_count(session, attribute, place, most);
+  std::vector<std::string> values;
   if (H5Tis_variable_str(found.get()) > 0) {
     const Handle type = session.string_type();
-    char* pointer = nullptr;
-    session.check(H5Aread(attribute.get(), type.get(), static_cast<void*>(&pointer)), place);
-    const std::string value = pointer == nullptr ? "" : pointer;
-    H5free_memory(pointer);
-    return value;
+    const Handle space = session.own(H5Aget_space(attribute.get()), place);
+    std::vector<char*> pointers(count, nullptr);
+    session.check(H5Aread(attribute.get(), type.get(), static_cast<void*>(pointers.data())), place);
+    for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
+    H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, static_cast<void*>(pointers.data()));
+    return values;
   }
   const std::size_t size = H5Tget_size(found.get());
-  if (size > std::min(kLongestString, session.file_size)) session.fail(place, "is too long");
-  std::string value(size, '\0');
-  session.check(H5Aread(attribute.get(), found.get(), value.data()), place);
-  value.resize(std::strlen(value.c_str()));
-  return value;
+  const std::size_t most_bytes =
+      session.is_written ? kLongestString : std::min(kLongestString, session.file_size);
+  if (count > 0 && size > most_bytes / count) session.fail(place, "is too long");
+  std::string all(size * count, '\0');
+  session.check(H5Aread(attribute.get(), found.get(), all.data()), place);
+  for (std::size_t i = 0; i < count; ++i) values.emplace_back(all.substr(i * size, size).c_str());
+  return values;
+}
+
+std::string attribute_text(const Session& session, const Handle& attribute, const std::string& place) {
+  const std::vector<std::string> values = attribute_texts(session, attribute, place, 1);
+  if (values.size() != 1) session.fail(place, "must be one text");
+  return values.front();
+}
+
+std::vector<std::string> dataset_texts(const Session& session, const std::string& object, std::size_t count) {
+  const Handle dataset = open_checked(session, object, {H5T_STRING, "text", 64}, {count});
+  const Handle found = session.own(H5Dget_type(dataset.get()), object);
+  if (H5Tis_variable_str(found.get()) <= 0) session.fail(object, "must hold text of variable length");
+  const Handle type = session.string_type();
+  const Handle space = session.own(H5Dget_space(dataset.get()), object);
+  std::vector<char*> pointers = read_all<char*>(session, dataset, type.get(), {count}, object);
+  std::vector<std::string> values;
+  for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
+  H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, static_cast<void*>(pointers.data()));
+  return values;
 }
 
 std::vector<std::string> attribute_names(const Session& session, const std::string& object) {

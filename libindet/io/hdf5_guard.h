@@ -56,8 +56,14 @@ std::size_t attribute_count(const Session& session, const Handle& attribute, con
 /// An attribute of numbers with at most `most` of them.
 std::vector<double> attribute_numbers(const Session& session, const Handle& attribute,
                                       const std::string& place, std::size_t most);
+/// An attribute of texts.
+std::vector<std::string> attribute_texts(const Session& session, const Handle& attribute,
+                                         const std::string& place, std::size_t most);
 /// An attribute that is one text.
 std::string attribute_text(const Session& session, const Handle& attribute, const std::string& place);
+
+/// A dataset of texts of variable length, of rank 1.
+std::vector<std::string> dataset_texts(const Session& session, const std::string& object, std::size_t count);
 
 /// In the order of their names.
 std::vector<std::string> attribute_names(const Session& session, const std::string& object);

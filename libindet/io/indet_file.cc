@@ -35,6 +35,14 @@ std::string content_digest(const Hdf5File& file) {
   return file.sha256(objects);
 }
 
+/// The same of texts, but for those of /h5md, which tell who wrote the file.
+std::string text_digest(const Hdf5File& file) {
+  std::vector<std::string> objects = file.top_objects();
+  std::erase(objects, "/provenance");
+  std::erase(objects, "/h5md");
+  return file.text_sha256(objects);
+}
+
 }  // namespace
 
 void write_header(Hdf5File& file, SchemaVersion schema) {
@@ -78,6 +86,7 @@ void write_provenance_part(Hdf5File& file, const Provenance& provenance) {
 
 void seal(Hdf5File& file) {
   file.set_attribute("/", "content_sha256", content_digest(file));
+  file.set_attribute("/", "text_sha256", text_digest(file));
   file.set_attribute("/", "complete", 1);
   file.commit();
 }
@@ -103,6 +112,9 @@ Digests compute_digests(const Hdf5File& file) {
   Digests digests;
   digests.content = content_digest(file);
   digests.stored_content = file.string_attribute("/", "content_sha256");
+  digests.texts = text_digest(file);
+  if (file.has_attribute("/", "text_sha256"))
+    digests.stored_texts = file.string_attribute("/", "text_sha256");
   if (file.has("/ranges")) {
     digests.ranges = file.sha256({"/extremal", "/ranges"});
     digests.stored_ranges = file.string_attribute("/ranges", "sha256");

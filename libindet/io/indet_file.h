@@ -30,14 +30,19 @@ struct Provenance {
 /// Throws InputError.
 Hdf5File open_indet_file(const std::filesystem::path& path);
 
-/// The SHA-256 of the numbers of a file: as stored in it, and recomputed from what is in it now.
+/// The SHA-256 of the numbers and of the texts of a file: as stored in it, and recomputed from what is in it
+/// now.
 struct Digests {
   std::string content;         ///< Of everything outside /provenance.
   std::string stored_content;  ///< @content_sha256 of the root.
+  std::string texts;           ///< Of all texts outside /provenance and /h5md, and of the root's attributes.
+  std::string stored_texts;    ///< @text_sha256 of the root; empty in files of earlier versions.
   std::string ranges;          ///< Of /ranges and /extremal; empty if the file has no ranges.
   std::string stored_ranges;   ///< @sha256 of /ranges; empty if the file has no ranges.
 
-  bool match() const { return content == stored_content && ranges == stored_ranges; }
+  bool numbers_match() const { return content == stored_content && ranges == stored_ranges; }
+  bool texts_match() const { return stored_texts.empty() || texts == stored_texts; }
+  bool match() const { return numbers_match() && texts_match(); }
 };
 Digests compute_digests(const Hdf5File& file);
 Digests compute_digests(const std::filesystem::path& path);

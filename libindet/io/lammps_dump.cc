@@ -9,6 +9,7 @@
 
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 
 namespace indet {
 namespace {
@@ -68,7 +69,7 @@ class DumpIndex {
     need_line();
     std::int64_t value = 0;
     if (!parse_number(line_, &value) || value < 0) {
-      fail(fmt::format("\"{}\" is not a {}", trimmed(line_), what));
+      fail(fmt::format("\"{}\" is not a {}", excerpt(trimmed(line_)), what));
     }
     return value;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 
 namespace indet {
 namespace {
@@ -29,10 +30,10 @@ LeverRule LeverRule::parse(const std::vector<std::string>& items) {
     const auto lever = parse_lever(pair && wall ? item : item.substr(5));
     if (!lever) {
       throw InputError(
-          fmt::format("lever \"{}\": the forms are radius, mid-overlap, pair=… and wall=…", item));
+          fmt::format("lever \"{}\": the forms are radius, mid-overlap, pair=… and wall=…", excerpt(item)));
     }
     if ((pair && rule.pair) || (wall && rule.wall)) {
-      throw InputError(fmt::format("lever \"{}\": this is given twice", item));
+      throw InputError(fmt::format("lever \"{}\": this is given twice", excerpt(item)));
     }
     if (pair) rule.pair = lever;
     if (wall) rule.wall = lever;

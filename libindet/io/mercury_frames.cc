@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/packing_builder.h"
 
 namespace indet {
@@ -54,7 +55,7 @@ TextFile read_lines(const std::filesystem::path& path) {
 double parse_time(std::string_view text, const Place& place) {
   double time = 0;
   if (!parse_number(text, &time) || !std::isfinite(time))
-    place.fail(fmt::format("\"{}\" is not the time of a frame", text));
+    place.fail(fmt::format("\"{}\" is not the time of a frame", excerpt(text)));
   return time;
 }
 
@@ -73,7 +74,7 @@ RawFrame parse_head(const Line& line, const Place& place, std::size_t* count) {
     place.fail(
         fmt::format("a frame must begin with the number of its particles, but \"{}\" is none; does the frame "
                     "before have more rows than it announces?",
-                    words[0]));
+                    excerpt(words[0])));
   }
   *count = static_cast<std::size_t>(particles);
   return {

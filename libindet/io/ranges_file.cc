@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/vtkhdf.h"
 #include "libindet/range/result_fields.h"
@@ -219,7 +220,7 @@ class FieldReader {
       const auto& values = values_of(value);
       const auto found =
           std::find_if(values.begin(), values.end(), [&](Value v) { return text == to_string(v); });
-      if (found == values.end()) refuse(fmt::format("\"{}\" is unknown", text));
+      if (found == values.end()) refuse(fmt::format("\"{}\" is unknown", excerpt(text)));
       value = *found;
     } else {
       const std::int64_t number = file_.integer_attribute(field.group, field.name);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/csv_table.h"
 
 namespace indet {
@@ -64,7 +65,8 @@ class SceneReader {
     } else if (key == "stress") {
       read_stress(node);
     } else {
-      fail(node, fmt::format("{} is unknown; the known keys are gravity, force_unit, mu, cell, stress", key));
+      fail(node, fmt::format("{} is unknown; the known keys are gravity, force_unit, mu, cell, stress",
+                             excerpt(key)));
     }
   }
 
@@ -72,7 +74,7 @@ class SceneReader {
     scene_.cell_line = static_cast<int>(node.source().begin.line);
     for (const auto& [key, entry] : table_of("cell", node, "a and b, the vectors of a periodic scene")) {
       if (key.str() != "a" && key.str() != "b")
-        fail(entry, fmt::format("{} of the cell is unknown; it has the vectors a and b", key.str()));
+        fail(entry, fmt::format("{} of the cell is unknown; it has the vectors a and b", excerpt(key.str())));
       (key.str() == "a" ? scene_.cell.a : scene_.cell.b) = vector(std::string(key.str()), entry, "[10, 0]");
     }
     if (!scene_.cell.is_periodic()) fail(node, "the cell needs a vector a or b");
@@ -86,8 +88,9 @@ class SceneReader {
     for (const auto& [key, entry] : table_of("stress", node, "xx, yy, xy or pressure, or be \"none\"")) {
       double* const component = stress.find(key.str());
       if (component == nullptr) {
-        fail(entry, fmt::format("{} of the stress is unknown; it has xx, yy, xy, or pressure{}", key.str(),
-                                key.str() == "yx" ? " (yx follows from the torques)" : ""));
+        fail(entry,
+             fmt::format("{} of the stress is unknown; it has xx, yy, xy, or pressure{}", excerpt(key.str()),
+                         key.str() == "yx" ? " (yx follows from the torques)" : ""));
       }
       *component = number(std::string(key.str()), entry);
     }

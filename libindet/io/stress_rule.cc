@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/equilibrium/contact_state.h"
 #include "libindet/io/table.h"
 #include "libindet/packing/validate.h"
@@ -22,7 +23,8 @@ StressRule StressRule::parse(const std::vector<std::string>& items) {
     double value = 0;
     if (equals == std::string::npos || component == nullptr ||
         !parse_number(std::string_view(item).substr(equals + 1), &value) || !std::isfinite(value)) {
-      throw InputError(fmt::format("\"{}\" is not xx=, yy=, xy= or pressure= with a number, nor none", item));
+      throw InputError(
+          fmt::format("\"{}\" is not xx=, yy=, xy= or pressure= with a number, nor none", excerpt(item)));
     }
     if (!std::isnan(*component)) throw InputError(fmt::format("{} is given twice", name));
     *component = value;

@@ -15,6 +15,7 @@
 
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/gzip.h"
 #include "libindet/io/utf8.h"
 
@@ -113,7 +114,8 @@ Table::Table(std::string source, std::shared_ptr<const std::string> text, int he
       throw InputError(fmt::format("{}:{}: column {} has no name", source_, header_line_, i + 1));
     }
     if (!index_.emplace(columns_[i], i).second) {
-      throw InputError(fmt::format("{}:{}: column {} is given twice", source_, header_line_, columns_[i]));
+      throw InputError(
+          fmt::format("{}:{}: column {} is given twice", source_, header_line_, excerpt(columns_[i])));
     }
   }
 }
@@ -122,7 +124,7 @@ void Table::add_row(int line, std::vector<std::string_view> fields, std::string_
   if (fields.size() != columns_.size()) {
     throw InputError(fmt::format("{}:{}: {}, but there are {} columns ({}){}", source_, line,
                                  counted(static_cast<std::int64_t>(fields.size()), "field"), columns_.size(),
-                                 fmt::join(columns_, ", "), advice));
+                                 excerpt(fmt::format("{}", fmt::join(columns_, ", "))), advice));
   }
   lines_.push_back(line);
   fields_.insert(fields_.end(), fields.begin(), fields.end());
@@ -132,7 +134,7 @@ void Table::require(const std::vector<std::string>& columns) const {
   for (const std::string& column : columns) {
     if (has(column)) continue;
     throw InputError(fmt::format("{}:{}: column {} is missing; the file has {}", source_, header_line_,
-                                 column, fmt::join(columns_, ", ")));
+                                 column, excerpt(fmt::format("{}", fmt::join(columns_, ", ")))));
   }
 }
 
@@ -140,7 +142,7 @@ void Table::allow_only(const std::vector<std::string>& columns) const {
   for (const std::string& column : columns_) {
     if (std::find(columns.begin(), columns.end(), column) != columns.end()) continue;
     throw InputError(fmt::format("{}:{}: column {} is unknown; the known ones are {}", source_, header_line_,
-                                 column, fmt::join(columns, ", ")));
+                                 excerpt(column), fmt::join(columns, ", ")));
   }
 }
 
@@ -161,9 +163,9 @@ double Table::number(int row, std::string_view column) const {
     fail(row, column,
          fmt::format("\"{}\" is not a number: it must have a decimal point and no separator of thousands "
                      "(a decimal comma is read where semicolons separate the fields)",
-                     field));
+                     excerpt(field)));
   }
-  fail(row, column, fmt::format("\"{}\" is not a number (or outside the range of a double)", field));
+  fail(row, column, fmt::format("\"{}\" is not a number (or outside the range of a double)", excerpt(field)));
 }
 
 double Table::number_or(int row, std::string_view column, double fallback) const {
@@ -176,7 +178,7 @@ std::int32_t Table::integer(int row, std::string_view column) const {
   if (!parse_number(field, &value)) {
     double real = 0;
     if (!parse_number(field, &real) || std::trunc(real) != real || std::abs(real) > 1e15) {
-      fail(row, column, fmt::format("\"{}\" is not a whole number", field));
+      fail(row, column, fmt::format("\"{}\" is not a whole number", excerpt(field)));
     }
     value = static_cast<std::int64_t>(real);
   }

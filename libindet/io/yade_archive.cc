@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/table.h"
 #include "libindet/io/yade_scene.h"
 
@@ -71,7 +72,8 @@ class Archive {
     const pugi::xml_node found = at(node, path);
     double value = 0;
     if (!parse_number(found.child_value(), &value)) {
-      fail(line_of(found), fmt::format("{}: \"{}\" is not a number", found.name(), found.child_value()));
+      fail(line_of(found),
+           fmt::format("{}: \"{}\" is not a number", found.name(), excerpt(found.child_value())));
     }
     return value;
   }
@@ -79,10 +81,10 @@ class Archive {
   int integer(const pugi::xml_node& node, const char* path) const {
     const pugi::xml_node found = at(node, path);
     std::int64_t value = 0;
-    if (!parse_number(std::string_view(found.child_value()), &value) ||
+    if (!parse_number(std::string_view(excerpt(found.child_value())), &value) ||
         value != static_cast<std::int32_t>(value)) {
-      fail(line_of(found),
-           fmt::format("{}: \"{}\" is not a whole number of 32 bits", found.name(), found.child_value()));
+      fail(line_of(found), fmt::format("{}: \"{}\" is not a whole number of 32 bits", found.name(),
+                                       excerpt(found.child_value())));
     }
     return static_cast<int>(value);
   }

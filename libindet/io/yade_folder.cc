@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 #include "libindet/io/table.h"
 #include "libindet/io/yade_scene.h"
 
@@ -48,7 +49,7 @@ class Fields {
   double number(const std::string& name) const {
     double value = 0;
     if (!parse_number(text(name), &value)) {
-      place_.fail(fmt::format("{}: \"{}\" is not a number", name, text(name)));
+      place_.fail(fmt::format("{}: \"{}\" is not a number", name, excerpt(text(name))));
     }
     return value;
   }
@@ -59,7 +60,7 @@ class Fields {
   int integer(const std::string& name) const {
     std::int64_t value = 0;
     if (!parse_number(text(name), &value) || value != static_cast<std::int32_t>(value)) {
-      place_.fail(fmt::format("{}: \"{}\" is not a whole number of 32 bits", name, text(name)));
+      place_.fail(fmt::format("{}: \"{}\" is not a whole number of 32 bits", name, excerpt(text(name))));
     }
     return static_cast<int>(value);
   }
@@ -134,13 +135,13 @@ class Lines {
 /// "zXY" as bits; "-" for none.
 int parse_blocked(const Fields& fields) {
   int bits = 0;
-  for (const char c : fields.text("blocked")) {
+  for (const char c : excerpt(fields.text("blocked"))) {
     const std::size_t bit = std::string_view("xyzXYZ").find(c);
     if (bit != std::string_view::npos) {
       bits |= 1 << bit;
     } else if (c != '-') {
-      fields.place().fail(
-          fmt::format("blocked: \"{}\" must be of the letters xyzXYZ, or -", fields.text("blocked")));
+      fields.place().fail(fmt::format("blocked: \"{}\" must be of the letters xyzXYZ, or -",
+                                      excerpt(fields.text("blocked"))));
     }
   }
   return bits;

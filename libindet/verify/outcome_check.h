@@ -4,6 +4,7 @@
 
 #include "libindet/io/sampling_file.h"
 #include "libindet/range/force_ranges.h"
+#include "libindet/verify/comparisons.h"
 #include "libindet/verify/verification.h"
 
 namespace indet {
@@ -14,5 +15,9 @@ namespace indet {
 /// nothing is compared.
 Verification verify_outcome(const std::string& outcome, const SamplingRecord* uniform,
                             const ForceRanges* ranges);
+
+/// Compares the status of F with dim F and with the outcomes: an unbounded F has an unbounded value, where
+/// all were sought, and any other has none.
+void check_status(const ForceRanges& ranges, Comparisons& compare);
 
 }  // namespace indet

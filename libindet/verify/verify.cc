@@ -20,6 +20,7 @@
 #include "libindet/verify/kept_states_check.h"
 #include "libindet/verify/motion_check.h"
 #include "libindet/verify/needed_equations.h"
+#include "libindet/verify/outcome_check.h"
 #include "libindet/verify/predictions_check.h"
 #include "libindet/verify/reactions_check.h"
 #include "libindet/verify/rebuilt_problem.h"
@@ -67,9 +68,7 @@ class Verifier {
     compare_.equal_count(ranges_.equations, needed_equations(packing_), "equations");
     compare_.require(ranges_.dim <= ranges_.nullity, "dim: {} is larger than the nullity {}", ranges_.dim,
                      ranges_.nullity);
-    const bool is_point = ranges_.status == PolytopeStatus::kPoint;
-    compare_.require(is_point == (ranges_.dim == 0), "status {} and dim {} contradict each other",
-                     to_string(ranges_.status), ranges_.dim);
+    check_status(ranges_, compare_);
     if (ranges_.status != PolytopeStatus::kEmpty) {
       compare_.require(ranges_.active.cols() == ranges_.dim, "active: {} half-planes a state, but dim is {}",
                        ranges_.active.cols(), ranges_.dim);

@@ -160,7 +160,7 @@ class Samples(unittest.TestCase):
     def test_digests_as_documented(self):
         snippet = re.search(r"```python\n(.*?)```", pathlib.Path(FORMAT).read_text(), re.DOTALL).group(1)
         done = subprocess.run([sys.executable, "-c", snippet], cwd=FOLDER, capture_output=True, text=True, check=True)
-        self.assertEqual(done.stdout, "True\nTrue\n")
+        self.assertEqual(done.stdout, "True\nTrue\nTrue\n")
 
     def test_files_have_the_fields_of_the_list(self):
         sizes = {"2": 2, "3": 3, "4": 4, "N": 3, "W": 2, "M": 5, "2M": 10, "K": 7, "Q": 1, "d": 3, "P": 4, "S": 3, "U": 1, "B": 6, "C": 2, "D": 2, "4D": 8,

@@ -114,7 +114,7 @@ class SimulateTest(program.ProgramTest):
                 (wall.format(-1, "[0.609, 0.812]"), "scene.toml:5: normal must have length 1, but has length 1.015; "
                                                     "in this direction that is [0.6, 0.8]"),
                 (wall.format(-1, "[0, 0]"), "scene.toml:5: normal must have length 1, but has length 0"),
-                (wall.format(-1, "[nan, 0]"), "scene.toml:5: normal must have length 1, but has length nan"),
+                (wall.format(-1, "[nan, 0]"), "scene.toml:5: normal must be finite, but is nan"),
                 (wall.format(20, "[0.6, 0.8]"), "inside wall ramp: the grid of 1 × 7 cells fills 0 ≤ x ≤ 2.2, "
                                                 "0 ≤ y ≤ 14; move the wall"),
                 (wall.format(-1, "[0, -1]"), "inside wall ramp: the grid"),

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include "libindet/base/error.h"
+#include "libindet/base/toml_text.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -22,11 +23,11 @@ void check_layout(const std::filesystem::path& folder) {
 void write_plan(const std::filesystem::path& folder, const Plan& plan) {
   std::string text =
       "# The packings of this ensemble. Written by indet; indet merge and indet report read it.\n";
-  text += fmt::format("config = '''\n{}'''\n", plan.config);
+  text += fmt::format("config = {}\n", toml_text(plan.config));
   for (const Member& member : plan.members) {
-    text +=
-        fmt::format("[[member]]\nname = \"{}\"\nprotocol = \"{}\"\nseed = {}\ncost = {:.3f}\nhash = \"{}\"\n",
-                    member.name, to_string(member.protocol), member.seed, member.cost, member.hash);
+    text += fmt::format("[[member]]\nname = {}\nprotocol = \"{}\"\nseed = {}\ncost = {:.3f}\nhash = \"{}\"\n",
+                        toml_text(member.name), to_string(member.protocol), member.seed, member.cost,
+                        member.hash);
   }
   write_whole_file(folder / "ensemble.toml", text);
 }

@@ -11,6 +11,7 @@
 #include "libindet/base/version.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/sha256.h"
+#include "libindet/io/utf8.h"
 #include "libindet/range/paper_options.h"
 #include "libsim/scene_toml.h"
 
@@ -179,6 +180,9 @@ Plan make_plan(const EnsembleConfig& config) {
   for (Member& member : plan.members) {
     member.number = static_cast<int>(&member - plan.members.data());
     member.hash = digest(member.config);
+    if (valid_utf8_length(member.name) < member.name.size())
+      throw InputError(
+          fmt::format("the name of the file {} is not UTF-8; rename it", member.source.string()));
     if (!names.insert(member.name).second)
       throw InputError(fmt::format("two packings have the name {}", member.name));
   }

@@ -7,6 +7,7 @@
 #include "apps/ensemble/tables/run_table.h"
 #include "apps/ensemble/tables/uniform_tables.h"
 #include "libindet/base/error.h"
+#include "libindet/base/printable.h"
 
 namespace indet {
 
@@ -21,10 +22,10 @@ EnsembleTables::EnsembleTables()
 std::vector<sim::Protocol> protocols_of(const FlatTable& runs) {
   std::vector<sim::Protocol> protocols;
   for (std::size_t run = 0; run < runs.rows(); ++run) {
-    const auto protocol = sim::protocol_from(runs.text("protocol", run));
+    const auto protocol = sim::protocol_from(excerpt(runs.text("protocol", run)));
     if (!protocol) {
       throw InputError(
-          fmt::format("/table/runs/protocol: \"{}\" is no protocol", runs.text("protocol", run)));
+          fmt::format("/table/runs/protocol: \"{}\" is no protocol", excerpt(runs.text("protocol", run))));
     }
     protocols.push_back(*protocol);
   }
