@@ -253,6 +253,8 @@ void print_report(const Packing& packing, const ForceRanges& ranges, const std::
   const std::string blocks = ranges.blocks >= 0 ? ", " + counted(ranges.blocks, "independent block") : "";
   say("polytope of contact states: {}, dimension {} ({}){}\n", to_string(ranges.status), ranges.dim,
       describe_expected_dimension(packing), blocks);
+  if (!ranges.blocks_reason.empty())
+    say("number of independent blocks: not known, {}\n", ranges.blocks_reason);
   if (ranges.sliding >= 0)
     say("simulated state: {}\n", describe_sliding(ranges.sliding, ranges.non_transmitting));
   if (ranges.choice == ContactChoice::Kind::kSample || ranges.choice == ContactChoice::Kind::kList)

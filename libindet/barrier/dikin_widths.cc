@@ -125,6 +125,7 @@ DikinWidths dikin_widths(const EquilibriumProblem& problem, const BlockStructure
   widths.R.assign(problem.contacts.size(), 0);
   widths.T.assign(problem.contacts.size(), 0);
   for (const BlockStructure::Group& group : structure.groups()) {
+    if (group.first_column == problem.unknowns()) continue;  // the slack of a limit
     const Edge& first = problem.edge(group.first_column);
     if (first.is_slack()) continue;
     for (const bool tangential : {false, true}) {

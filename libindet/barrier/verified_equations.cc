@@ -12,6 +12,8 @@ namespace indet::barrier {
 namespace {
 
 constexpr double kSmallest = 0x1p-300;
+/// More of the centre's multipliers than rounding asks for, so that their own rounding does no harm.
+constexpr double kRoomForRounding = 1.5;
 /// A residual, in the unit of the problem, of which a repair may leave more than rounding: it leaves some
 /// 1e-9 of it.
 constexpr double kLargeResidual = 1e-6;
@@ -392,17 +394,23 @@ std::vector<double> VerifiedEquations::nearest_multipliers(const Objective& obje
 
 ValueBounds VerifiedEquations::enclose_everywhere(const Objective& objective,
                                                   std::span<const double> y) const {
-  const LoadProduct load = load_product(y);
-  const Transposed along = reduced_costs(objective, y);
-  double below = 0, above = 0;
-  for (std::size_t k = 0; k < along.value.size(); ++k) {
-    if (const double h = along.value[k] + along.error[k]; !(h <= 0)) below += h * strength_[k];
-    if (const double h = along.error[k] - along.value[k]; !(h <= 0)) above += h * strength_[k];
+  Objective opposite = objective;
+  for (auto& [column, weight] : opposite) weight = -weight;
+  std::vector<double> from_below(y.begin(), y.end()), from_above(y.begin(), y.end());
+  multiply_by(from_above, -1);
+  if (!structure_.has_limit()) {
+    const Transposed along = reduced_costs(objective, y);
+    double below = 0, above = 0;
+    for (std::size_t k = 0; k < along.value.size(); ++k) {
+      below = std::max(below, centre_.x[k] * (along.error[k] + along.value[k]));
+      above = std::max(above, centre_.x[k] * (along.error[k] - along.value[k]));
+    }
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      from_below[i] -= kRoomForRounding * below * centre_.y[i];
+      from_above[i] -= kRoomForRounding * above * centre_.y[i];
+    }
   }
-  const ValueBounds bounds{load.value - load.error - widen_ * widen_ * below,
-                           load.value + load.error + widen_ * widen_ * above};
-  return {std::isnan(bounds.lower) ? -kInfinity : bounds.lower,
-          std::isnan(bounds.upper) ? kInfinity : bounds.upper};
+  return {lower_bound(objective, from_below), -lower_bound(opposite, from_above)};
 }
 
 }  // namespace indet::barrier

@@ -79,9 +79,9 @@ class VerifiedEquations {
   double lower_bound(const Objective& objective, std::span<const double> y) const;
   /// Multipliers y that make ‖X (c − Aᵀ y)‖₂ least, from one solution: (A X² Aᵀ) y = A X² cᵀ.
   std::vector<double> nearest_multipliers(const Objective& objective) const;
-  /// Bounds of c·x over the whole set, which hold whatever y is: duality for c with y and for −c with −y.
-  /// Where c is a combination of rows of A, and so c·x the same everywhere, the nearest y leave but rounding
-  /// between them. Precondition: no limit.
+  /// Bounds of c·x over the whole set, which hold whatever y is: duality for c with y − θ y_c and for −c with
+  /// −y − θ' y_c, θ and θ' as small as leaves every h_k ≥ 0 (beyond a limit, 0). Where c is a combination of
+  /// rows of A, and so c·x the same everywhere, the nearest y leave but rounding between them.
   ValueBounds enclose_everywhere(const Objective& objective, std::span<const double> y) const;
 
  private:

@@ -125,6 +125,12 @@ inline constexpr double kExactZero = 1e-9;
 /// uncoupled parts are blocks.
 inline constexpr double kCoupling = 1e-9;
 
+/// Independent parts of a large polytope: how far a contact's strengths move along random directions of it,
+/// relative to those of the analytic centre, and how far along those of other contacts, relative to that. Up
+/// to the first it is rounding, above the second it is not; between them the number of parts is not told.
+inline constexpr double kPartRounding = 1e-12;
+inline constexpr double kPartClear = 1e-9;
+
 /// A force component with a gradient up to this over a block (dimensionless) is determined.
 inline constexpr double kConstantComponent = 1e-9;
 
@@ -319,9 +325,9 @@ inline constexpr double kHullClear = 1e-9;
 /// A force that moves at most this far along every unit direction within F is determined.
 inline constexpr double kDeterminedForce = 1e-9;
 
-/// A force is determined if its width is up to this, relative to the normal force at the analytic centre: the
-/// square of a width is a difference, and rounds to some 1e-16 of the square of the force. Workable: 1e-7 …
-/// 1e-5; the smallest widths of forces that can vary are 1e-4 in piles of 1e4 disks.
+/// A force is determined if its width is up to this, relative to the normal force at the analytic centre, or
+/// to μ times that: the square of a width is a difference, and rounds to some 1e-16 of the square of the
+/// force. Workable: 1e-7 … 1e-5; the smallest widths of forces that can vary are 1e-4 in piles of 1e4 disks.
 inline constexpr double kDeterminedWidth = 1e-6;
 
 /// How wide the proven interval of such a force may be, relative to max(1 mg, |force|).

@@ -152,7 +152,8 @@ class FieldReader {
         is(field.group, kWork) && (is(field.name, "method") || is(field.name, "reason") ||
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
     const bool tells_itself = field.presence == Presence::kInterval ||
-                              field.presence == Presence::kEstimate || field.presence == Presence::kSeed;
+                              field.presence == Presence::kEstimate || field.presence == Presence::kSeed ||
+                              field.presence == Presence::kUnknownBlocks;
     if (may_lack || may_be_older || tells_itself) return file_.has_attribute(field.group, field.name);
     return is_present(field.presence, ranges_, 1);
   }

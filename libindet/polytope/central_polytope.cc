@@ -6,6 +6,7 @@
 #include "libindet/exact/certificate.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/polytope/sparse_decision.h"
+#include "libindet/polytope/unbounded_polytope.h"
 
 namespace indet {
 namespace {
@@ -46,17 +47,7 @@ std::optional<ForcePolytope> find_decided_polytope(const Packing& packing, Force
   return polytope;
 }
 
-}  // namespace
-
-CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> independent,
-                                 barrier::Limit limit)
-    : rows(independent.begin(), independent.end()), structure(problem, rows, std::move(limit)) {
-  barrier::BlockCholesky cholesky(structure);
-  centre = barrier::find_analytic_centre(structure, cholesky);
-  if (centre.found) equations.emplace(problem, structure, centre);
-}
-
-std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing) {
+std::optional<ForcePolytope> find_without_parts(const Packing& packing) {
   ForcePolytope polytope;
   polytope.natural = pose_equilibrium(packing);
   const RankDecision rank = decide_rank(polytope.natural.matrix);
@@ -76,6 +67,34 @@ std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing) {
     }
   }
   return find_decided_polytope(packing, std::move(polytope));
+}
+
+barrier::IndependentParts find_parts(const ForcePolytope& polytope) {
+  if (polytope.dim <= 0) return {0, ""};
+  if (polytope.central)
+    return find_independent_parts(polytope.central->structure, polytope.central->centre.x);
+  if (!polytope.unbounded)
+    return {-1, "forces are unbounded, and bodies that they press together can still move"};
+  // The limit would join all that it limits.
+  const barrier::BlockStructure unlimited(polytope.problem, polytope.unbounded->rows);
+  const std::vector<double>& x = polytope.unbounded->within->centre.x;
+  return find_independent_parts(unlimited, std::span(x).first(static_cast<std::size_t>(unlimited.columns())));
+}
+
+}  // namespace
+
+CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> independent,
+                                 barrier::Limit limit)
+    : rows(independent.begin(), independent.end()), structure(problem, rows, std::move(limit)) {
+  barrier::BlockCholesky cholesky(structure);
+  centre = barrier::find_analytic_centre(structure, cholesky);
+  if (centre.found) equations.emplace(problem, structure, centre);
+}
+
+std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing) {
+  std::optional<ForcePolytope> polytope = find_without_parts(packing);
+  if (polytope) polytope->parts = find_parts(*polytope);
+  return polytope;
 }
 
 bool add_centre(ForcePolytope& polytope) {

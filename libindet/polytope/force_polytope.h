@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "libindet/barrier/independent_parts.h"
 #include "libindet/equilibrium/equilibrium_problem.h"
 #include "libindet/exact/contact_problem.h"
 #include "libindet/lp/feasible_set.h"
@@ -67,6 +68,7 @@ struct ForcePolytope {
   Eigen::VectorXd interior;   ///< x of that point (all edges of `problem`)
   Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `problem`)
   std::vector<PolytopeBlock> blocks;  ///< none where the polytope was found by the barrier method
+  barrier::IndependentParts parts;    ///< in their place, then
   Eigen::VectorXd ray;  ///< x-direction of unbounded growth (edges of `problem`); empty if bounded
   /// If bounded or a point: λ ≥ 0 such that (1 + λ)·x is the same number everywhere in F, which bounds Σx.
   Eigen::VectorXd bounding_multipliers;

@@ -263,7 +263,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
-    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, options.reactions,
+    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, request, options.reactions,
                                               interval_options(options, "force ranges"), options.duals);
     stopwatch.mark("ranges");
     if (!is_left_to_programs(packing, polytope, found)) {

@@ -12,6 +12,7 @@
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/unbounded_polytope.h"
+#include "libindet/range/determined_forces.h"
 #include "libindet/range/dual_collector.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/growth_search.h"
@@ -31,11 +32,13 @@ struct Target {
 class BarrierSearch {
  public:
   BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
-                bool reactions, const IntervalOptions& options, const DualChoice& duals)
+                const CentralWidths& widths, bool reactions, const IntervalOptions& options,
+                const DualChoice& duals)
       : packing_(packing),
         polytope_(polytope),
         problem_(polytope.problem),
         contacts_(contacts),
+        widths_(widths),
         options_(options),
         choice_(duals),
         sums_(reactions ? reaction_sums(packing) : std::vector<ReactionSum>()) {
@@ -118,7 +121,6 @@ class BarrierSearch {
 
   void add(const Target& target, barrier::Objective objective) {
     std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
-    result_.extrema.determined += objective.empty() && !target.is_reaction ? 1 : 0;
     if (objective.empty()) return store(target, {0, 0, 0, 0, {}, {}});
     for (auto& [column, weight] : objective) weight *= target.sign;
     targets_.push_back(target);
@@ -126,14 +128,48 @@ class BarrierSearch {
   }
 
   void list_contacts() {
+    const CentralPolytope& central = polytope_.central ? *polytope_.central : *polytope_.unbounded->within;
+    if (widths_.width.rows() == 0) widths_ = central_widths(problem_, central);
+    const DeterminedForces determined(problem_, central);
     const std::vector<int> first = problem_.first_unknowns();
     for (const int i : contacts_) {
-      for (int column = 0; column < 4; ++column) {
-        result_.extrema.claim(i, column) = Outcome::kEnclosed;
-        add({false, i, column, column == kMaxR || column == kMaxT ? -1.0 : 1.0},
-            force_component(problem_, first, i, column >= kMinT, 1).on_edges);
+      for (const bool tangential : {false, true}) {
+        barrier::Objective objective = force_component(problem_, first, i, tangential, 1).on_edges;
+        std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
+        const Target least{false, i, tangential ? kMinT : kMinR};
+        const Target largest{false, i, tangential ? kMaxT : kMaxR, -1};
+        for (const Target& target : {least, largest})
+          result_.extrema.claim(i, target.column) = Outcome::kEnclosed;
+        if (store_determined(determined, objective, least, largest)) {
+          result_.extrema.determined += 2;
+        } else {
+          add(least, objective);
+          add(largest, std::move(objective));
+        }
       }
     }
+  }
+
+  /// Returns whether the force is the same in all states, and its value proven without a search.
+  bool store_determined(const DeterminedForces& determined, const barrier::Objective& objective,
+                        const Target& least, const Target& largest) {
+    ValueInterval interval{0, 0, 0, 0, {}, {}};
+    if (!objective.empty()) {
+      const bool may_vary =
+          polytope_.dim > 0 && !is_determined(packing_, widths_, least.row, least.column == kMinT);
+      if (may_vary) return false;
+      const auto total = static_cast<std::int64_t>(4 * contacts_.size());
+      if (options_.progress && !options_.progress(0, total)) throw Interrupted();
+      interval = determined.enclose(objective);
+      if (!determined.is_proof(interval, options_.gap)) return false;
+    }
+    ValueInterval opposite = interval;
+    opposite.lower = -interval.upper;
+    opposite.upper = -interval.lower;
+    for (double& y : opposite.y) y = -y;
+    store(least, std::move(interval));
+    store(largest, std::move(opposite));
+    return true;
   }
 
   void list_reactions() {
@@ -251,6 +287,7 @@ class BarrierSearch {
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
   const std::vector<int>& contacts_;
+  CentralWidths widths_;
   const IntervalOptions& options_;
   const DualChoice& choice_;
   std::vector<int> with_duals_;  ///< ascending
@@ -265,9 +302,9 @@ class BarrierSearch {
 }  // namespace
 
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
-                                  const std::vector<int>& contacts, bool reactions,
-                                  const IntervalOptions& options, const DualChoice& duals) {
-  return BarrierSearch(packing, polytope, contacts, reactions, options, duals).run();
+                                  const std::vector<int>& contacts, const CentralWidths& widths,
+                                  bool reactions, const IntervalOptions& options, const DualChoice& duals) {
+  return BarrierSearch(packing, polytope, contacts, widths, reactions, options, duals).run();
 }
 
 barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem) {

@@ -5,6 +5,7 @@
 #include "libindet/barrier/verified_equations.h"
 #include "libindet/packing/packing.h"
 #include "libindet/polytope/force_polytope.h"
+#include "libindet/range/central_widths.h"
 #include "libindet/range/duals.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/extrema.h"
@@ -22,13 +23,15 @@ struct BarrierRanges {
   Duals duals;            ///< of the contacts that were chosen, if the polytope has a centre
 };
 
-/// `contacts`: ascending. A value that is 0 in all states, because no edge of its contact is open, needs no
-/// search. Where F is empty there are no values. Where it is unbounded, those that grow without limit have a
-/// ray, and the others are found in the part of F within a limit; all are kFailed if nothing is proven of it
-/// (ForcePolytope::unbounded). Throws Interrupted.
+/// `contacts`: ascending. `widths`: about the centre, of no rows where they are not known yet. A force that
+/// is the same in all states by its width (determined_forces.h), or because no edge of its contact is open,
+/// needs no search. Where F is empty there are no values. Where it is unbounded, those that grow without
+/// limit have a ray, and the others are found in the part of F within a limit; all are kFailed if nothing is
+/// proven of it (ForcePolytope::unbounded). Throws Interrupted.
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
-                                  const std::vector<int>& contacts, bool reactions,
-                                  const IntervalOptions& options, const DualChoice& duals = {});
+                                  const std::vector<int>& contacts, const CentralWidths& widths,
+                                  bool reactions, const IntervalOptions& options,
+                                  const DualChoice& duals = {});
 
 /// Bounds in the unit of a problem, in the scene's: rounded outwards.
 barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem);

@@ -39,6 +39,7 @@ struct WantedState {
   int column = 0;
   double sign = 1;
   barrier::Objective value;
+  bool is_determined = false;  ///< its interval is that of the force's other end, too
 };
 
 class StateSearch {
@@ -80,8 +81,11 @@ class StateSearch {
       for (int column = 0; column < 4; ++column) {
         if (found_.extrema.claim(i, column) != Outcome::kEnclosed) continue;
         const double sign = column == kMaxR || column == kMaxT ? -1 : 1;
+        const int other = column % 2 == 0 ? column + 1 : column - 1;
+        const auto agree = [&](const Table4<double>& ends) { return ends(i, column) == ends(i, other); };
         WantedState target{i, column, sign,
-                           force_component(problem_, first, i, column >= kMinT, sign).on_edges};
+                           force_component(problem_, first, i, column >= kMinT, sign).on_edges,
+                           agree(found_.enclosures.lower) && agree(found_.enclosures.upper)};
         std::erase_if(target.value, [](const auto& entry) { return entry.second == 0; });
         targets_.push_back(std::move(target));
       }
@@ -199,15 +203,22 @@ class StateSearch {
     found_.extrema.dual_residual(target.contact, target.column) = vertex.dual_residual;
     found_.extrema.unique(target.contact, target.column) = vertex.is_unique ? 1 : 0;
     if (target.value.empty()) return;
-    const auto [lower, upper] =
-        value_bounds(central_.equations->enclose(target.value, vertex.x, vertex.y), target.sign, problem_);
+    const SceneForces forces = forces_of(vertex);
+    const double value = forces.value()[2 * target.contact + (target.column >= kMinT ? 1 : 0)];
     Enclosures& enclosures = found_.enclosures;
     double& stored_lower = enclosures.lower(target.contact, target.column);
     double& stored_upper = enclosures.upper(target.contact, target.column);
-    stored_lower = std::max(stored_lower, lower);
-    stored_upper = std::min(stored_upper, upper);
-    enclosures.sensitivity(target.contact, target.column) = sensitivity_to_normals(
-        problem_, on_equations(problem_, central_.structure, vertex.y), forces_of(vertex));
+    if (!target.is_determined) {
+      const auto [lower, upper] =
+          value_bounds(central_.equations->enclose(target.value, vertex.x, vertex.y), target.sign, problem_);
+      stored_lower = std::max(stored_lower, lower);
+      stored_upper = std::min(stored_upper, upper);
+    }
+    // Rounding of the state can be more than the interval is wide.
+    stored_lower = std::min(stored_lower, value);
+    stored_upper = std::max(stored_upper, value);
+    enclosures.sensitivity(target.contact, target.column) =
+        sensitivity_to_normals(problem_, on_equations(problem_, central_.structure, vertex.y), forces);
   }
 
   const Packing& packing_;

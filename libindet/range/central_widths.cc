@@ -7,14 +7,17 @@
 namespace indet {
 
 CentralWidths central_widths(const ForcePolytope& polytope) {
-  const CentralPolytope& central = *polytope.central;
-  const EquilibriumProblem& problem = polytope.problem;
+  return central_widths(polytope.problem, *polytope.central);
+}
+
+CentralWidths central_widths(const EquilibriumProblem& problem, const CentralPolytope& central) {
   const auto count = static_cast<Eigen::Index>(problem.contacts.size());
   barrier::BlockCholesky cholesky(central.structure);
   const barrier::DikinWidths widths =
       barrier::dikin_widths(problem, central.structure, central.centre, cholesky);
   const std::vector<double>& x = central.centre.x;
-  const Eigen::Map<const Eigen::VectorXd> strengths(x.data(), static_cast<Eigen::Index>(x.size()));
+  const Eigen::Map<const Eigen::VectorXd> strengths(x.data(),
+                                                    problem.unknowns());  // a limit has a slack more
   const Eigen::VectorXd forces = problem.units.scene(problem.state(strengths)).value();
   CentralWidths result;
   result.centre.resize(count, 2);

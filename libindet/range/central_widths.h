@@ -4,6 +4,8 @@
 
 namespace indet {
 
+struct CentralPolytope;
+struct EquilibriumProblem;
 struct ForcePolytope;
 
 /// The analytic centre of F as forces, and how far each of them reaches from it within the Dikin ellipsoid
@@ -14,6 +16,7 @@ struct CentralWidths {
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> centre, width;
 };
 
+CentralWidths central_widths(const EquilibriumProblem& problem, const CentralPolytope& central);
 /// Precondition: polytope.central.
 CentralWidths central_widths(const ForcePolytope& polytope);
 

@@ -7,76 +7,70 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/sensitivity.h"
 
 namespace indet {
-namespace {
 
-class DeterminedForces {
- public:
-  DeterminedForces(const ForcePolytope& polytope, BarrierRanges& ranges)
-      : problem_(polytope.problem),
-        central_(*polytope.central),
-        ranges_(ranges),
-        first_(problem_.first_unknowns()),
-        centre_(problem_.units.scene(problem_.state(Eigen::Map<const Eigen::VectorXd>(
-            central_.centre.x.data(), static_cast<Eigen::Index>(central_.centre.x.size()))))) {}
-
-  void enclose(Eigen::Index contact, bool tangential) {
-    barrier::Objective objective = force_component(problem_, first_, contact, tangential, 1).on_edges;
-    std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
-    barrier::ValueBounds bounds{0, 0};
-    double sensitivity = 0;
-    if (!objective.empty()) {
-      const std::vector<double> y = central_.equations->nearest_multipliers(objective);
-      bounds = in_scene_units(central_.equations->enclose_everywhere(objective, y), problem_);
-      sensitivity = sensitivity_to_normals(problem_, on_equations(problem_, central_.structure, y), centre_);
-    }
-    const double size = std::max(problem_.units.weight_in_scene(), std::abs(bounds.lower));
-    const bool is_narrow = bounds.upper - bounds.lower <= tolerance::kDeterminedInterval * size;
-    for (const int column : {tangential ? kMinT : kMinR, tangential ? kMaxT : kMaxR}) {
-      // A calibrating contact has had its values counted.
-      ranges_.extrema.determined += objective.empty() && is_counted(contact, column) ? 0 : 1;
-      ranges_.extrema.claim(contact, column) = is_narrow ? Outcome::kEnclosed : Outcome::kFailed;
-      ranges_.enclosures.lower(contact, column) = bounds.lower;
-      ranges_.enclosures.upper(contact, column) = bounds.upper;
-      ranges_.enclosures.sensitivity(contact, column) = sensitivity;
-    }
-  }
-
- private:
-  bool is_counted(Eigen::Index contact, int column) const {
-    return ranges_.extrema.claim(contact, column) == Outcome::kEnclosed;
-  }
-
-  const EquilibriumProblem& problem_;
-  const CentralPolytope& central_;
-  BarrierRanges& ranges_;
-  std::vector<int> first_;
-  SceneForces centre_;
-};
-
-}  // namespace
-
-bool is_determined(const CentralWidths& widths, Eigen::Index contact, bool tangential) {
-  return widths.width(contact, tangential ? 1 : 0) <= tolerance::kDeterminedWidth * widths.centre(contact, 0);
+bool is_determined(const Packing& packing, const CentralWidths& widths, Eigen::Index contact,
+                   bool tangential) {
+  const double mu = packing[ContactId(static_cast<int>(contact))].mu;
+  const double largest = (tangential ? std::min(1.0, mu) : 1.0) * widths.centre(contact, 0);
+  return widths.width(contact, tangential ? 1 : 0) <= tolerance::kDeterminedWidth * largest;
 }
 
-void enclose_determined(const ForcePolytope& polytope, const CentralWidths& widths,
+DeterminedForces::DeterminedForces(const EquilibriumProblem& problem, const CentralPolytope& central)
+    : problem_(problem), central_(central), centre_(central.equations->repaired(central.centre.x)) {
+  // A limit has a slack more.
+  const Eigen::Map<const Eigen::VectorXd> strengths(centre_.data(), problem.unknowns());
+  forces_ = problem.units.scene(problem.state(strengths));
+}
+
+ValueInterval DeterminedForces::enclose(const barrier::Objective& objective) const {
+  ValueInterval interval;
+  interval.x = centre_;
+  interval.y = central_.equations->nearest_multipliers(objective);
+  const auto [lower, upper] = central_.equations->enclose_everywhere(objective, interval.y);
+  interval.lower = lower;
+  interval.upper = upper;
+  interval.sensitivity =
+      sensitivity_to_normals(problem_, on_equations(problem_, central_.structure, interval.y), forces_);
+  return interval;
+}
+
+bool DeterminedForces::is_proof(const ValueInterval& interval, double gap) const {
+  return is_narrow(interval, problem_, std::min(gap, tolerance::kDeterminedInterval));
+}
+
+void enclose_determined(const Packing& packing, const ForcePolytope& polytope, const CentralWidths& widths,
                         const IntervalOptions& options, BarrierRanges& ranges) {
+  const EquilibriumProblem& problem = polytope.problem;
   std::vector<std::pair<Eigen::Index, bool>> forces;
   for (Eigen::Index i = 0; i < widths.width.rows(); ++i) {
     for (const bool tangential : {false, true}) {
-      if (is_determined(widths, i, tangential)) forces.emplace_back(i, tangential);
+      if (ranges.extrema.claim(i, tangential ? kMinT : kMinR) == Outcome::kNotRequested &&
+          is_determined(packing, widths, i, tangential))
+        forces.emplace_back(i, tangential);
     }
   }
-  DeterminedForces determined(polytope, ranges);
+  const std::vector<int> first = problem.first_unknowns();
+  const DeterminedForces determined(problem, *polytope.central);
   std::int64_t done = 0;
   for (const auto& [contact, tangential] : forces) {
-    determined.enclose(contact, tangential);
+    barrier::Objective objective = force_component(problem, first, contact, tangential, 1).on_edges;
+    std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
+    ValueInterval interval{0, 0, 0, 0, {}, {}};
+    if (!objective.empty()) interval = determined.enclose(objective);
+    const auto [lower, upper] = value_bounds({interval.lower, interval.upper}, 1, problem);
+    for (const int column : {tangential ? kMinT : kMinR, tangential ? kMaxT : kMaxR}) {
+      ++ranges.extrema.determined;
+      ranges.extrema.claim(contact, column) =
+          determined.is_proof(interval, options.gap) ? Outcome::kEnclosed : Outcome::kFailed;
+      ranges.enclosures.lower(contact, column) = lower;
+      ranges.enclosures.upper(contact, column) = upper;
+      ranges.enclosures.sensitivity(contact, column) = interval.sensitivity;
+    }
     if (options.progress && !options.progress(++done, static_cast<std::int64_t>(forces.size())))
       throw Interrupted();
   }

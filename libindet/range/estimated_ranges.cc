@@ -19,7 +19,7 @@ ForceRanges estimate_ranges(const Packing& packing, const ForcePolytope& polytop
   const Eigen::Index count = request.width.rows();
   std::vector<int> variable;
   for (Eigen::Index i = 0; i < count; ++i) {
-    if (!is_determined(request, i, false) || !is_determined(request, i, true))
+    if (!is_determined(packing, request, i, false) || !is_determined(packing, request, i, true))
       variable.push_back(static_cast<int>(i));
   }
   const std::vector<int> contacts =
@@ -29,8 +29,8 @@ ForceRanges estimate_ranges(const Packing& packing, const ForcePolytope& polytop
   calibrates.setZero(count);
   for (const int i : contacts) calibrates[i] = 1;
 
-  BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, false, options);
-  enclose_determined(polytope, request, options, found);
+  BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, request, false, options);
+  enclose_determined(packing, polytope, request, options, found);
   for (Outcome& claim : found.extrema.claim.reshaped()) {
     if (claim == Outcome::kNotRequested) claim = Outcome::kEstimate;
   }

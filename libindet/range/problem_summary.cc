@@ -11,9 +11,9 @@ ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope) 
   summary.rank = null_space.rank;
   summary.nullity = null_space.nullity;
   summary.dim = polytope.dim;
-  // Without the kernel nobody has looked for them.
   const bool is_split = !polytope.blocks.empty() || polytope.dim <= 0;
-  summary.blocks = is_split ? static_cast<int>(polytope.blocks.size()) : -1;
+  summary.blocks = is_split ? static_cast<int>(polytope.blocks.size()) : polytope.parts.count;
+  if (summary.blocks < 0) summary.blocks_reason = polytope.parts.reason;
   summary.rank_ambiguous = polytope.rank_ambiguous;
   summary.rank_gap = null_space.rank_gap();
   summary.smallest_accepted = null_space.smallest_accepted;

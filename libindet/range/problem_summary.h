@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <string>
 
 #include "libindet/packing/packing.h"
 #include "libindet/polytope/force_polytope.h"
@@ -17,7 +18,8 @@ struct ProblemSummary {
   int rank = -1;       ///< rank c.
   int nullity = -1;    ///< d = dim ker c ≥ 2M − 3N [8].
   int dim = -1;        ///< dim F; −1 when F is empty.
-  int blocks = -1;     ///< Independent parts of F; −1 where they were not looked for.
+  int blocks = -1;     ///< Independent parts of F; −1 where they are not known.
+  std::string blocks_reason;  ///< Then, why.
   bool rank_ambiguous = false;
   /// Smallest accepted over largest rejected singular value (estimates), and these two.
   double rank_gap = std::numeric_limits<double>::quiet_NaN();

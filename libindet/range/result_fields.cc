@@ -72,6 +72,8 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.duals.are_kept();
     case Presence::kReason:
       return !ranges.reason.empty();
+    case Presence::kUnknownBlocks:
+      return !ranges.blocks_reason.empty();
     case Presence::kRandom:
       return ranges.method == Method::kPivotingPaper &&
              ranges.paper_options.neighbour == NeighbourRule::kRandom;

@@ -39,17 +39,18 @@ const char* to_string(Extent extent);
 /// When a field has something to say; else files leave it out.
 enum class Presence : std::uint8_t {
   kAlways,
-  kSubset,    ///< where not all contacts were asked for
-  kSample,    ///< where a sample of contacts was
-  kDrawn,     ///< where that was drawn with unequal probabilities
-  kSeed,      ///< where a seed drew contacts
-  kEstimate,  ///< where δ is estimated
-  kPaper,     ///< where the method is kPivotingPaper
-  kInterval,  ///< where values are known to intervals of an asked-for width
-  kDuals,     ///< where duals are kept
-  kReason,    ///< where the method was chosen by the program
-  kRandom,    ///< where that goes to a neighbour by chance
-  kWhereRows  ///< where the table has rows
+  kSubset,         ///< where not all contacts were asked for
+  kSample,         ///< where a sample of contacts was
+  kDrawn,          ///< where that was drawn with unequal probabilities
+  kSeed,           ///< where a seed drew contacts
+  kEstimate,       ///< where δ is estimated
+  kPaper,          ///< where the method is kPivotingPaper
+  kInterval,       ///< where values are known to intervals of an asked-for width
+  kDuals,          ///< where duals are kept
+  kReason,         ///< where the method was chosen by the program
+  kUnknownBlocks,  ///< where the number of blocks is not known
+  kRandom,         ///< where that goes to a neighbour by chance
+  kWhereRows       ///< where the table has rows
 };
 
 /// What a field follows from, and so where it must be the same.
@@ -100,7 +101,10 @@ void visit_problem(Part& r, Visit& visit) {
   attribute("rank", "rank of the equations", r.rank);
   attribute("nullity", "dimension of the kernel", r.nullity);
   attribute("dim", "dimension of the polytope, -1 if it is empty", r.dim);
-  attribute("blocks", "independent parts of the polytope, -1 if not looked for", r.blocks);
+  attribute("blocks", "independent parts of the polytope, -1 if not known", r.blocks);
+  visit(Field{"/equilibrium", "blocks_reason", "1", "why they are not known", FieldSource::kRounding,
+              Extent::kOne, Extent::kOne, Presence::kUnknownBlocks},
+        r.blocks_reason);
   attribute("rank_ambiguous", "1 if the rank lies within rounding", r.rank_ambiguous);
   attribute("rank_gap", "smallest accepted over largest rejected singular value, estimated", r.rank_gap,
             FieldSource::kRounding);

@@ -26,7 +26,7 @@ WidthPredictions::WidthPredictions(const Packing& packing, const CentralWidths& 
 }
 
 bool WidthPredictions::can_vary(Eigen::Index contact) const {
-  return !is_determined(widths_, contact, tangential_);
+  return !is_determined(packing_, widths_, contact, tangential_);
 }
 
 LogPrediction WidthPredictions::logarithm(Eigen::Index contact) const {

@@ -2,36 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "libindet/base/tolerances.h"
 #include "libindet/dense/lu.h"
 #include "libindet/dense/qr.h"
+#include "libindet/verify/groups.h"
 
 namespace indet {
 namespace {
 
 bool is_clear(double value) { return value <= tolerance::kHullRounding || value > tolerance::kHullClear; }
-
-/// Elements that are joined have the same root.
-class Groups {
- public:
-  explicit Groups(Eigen::Index size) : parent_(static_cast<std::size_t>(size)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Eigen::Index i, Eigen::Index j) {
-    parent_[root(static_cast<std::size_t>(i))] = root(static_cast<std::size_t>(j));
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 }  // namespace
 

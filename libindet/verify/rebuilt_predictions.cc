@@ -24,7 +24,9 @@ RebuiltPredictions::RebuiltPredictions(const Packing& packing, const ForceRanges
 }
 
 bool RebuiltPredictions::is_determined(Eigen::Index contact) const {
-  return ranges_.width(contact, component_) <= tolerance::kDeterminedWidth * ranges_.centre(contact, 0);
+  const double mu = packing_[ContactId(static_cast<int>(contact))].mu;
+  const double largest = (component_ == 1 && mu < 1 ? mu : 1) * ranges_.centre(contact, 0);
+  return ranges_.width(contact, component_) <= tolerance::kDeterminedWidth * largest;
 }
 
 RebuiltPredictions::Expected RebuiltPredictions::expect(Eigen::Index contact) const {

@@ -12,6 +12,20 @@
 
 namespace indet {
 
+std::optional<int> nullity_by_inertia(const Eigen::SparseMatrix<double>& matrix, double threshold) {
+  double largest = 0;
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) largest = std::max(largest, matrix.col(j).norm());
+  if (largest == 0) return static_cast<int>(matrix.cols());
+  Eigen::SparseMatrix<double> unit(matrix.rows(), matrix.rows());
+  unit.setIdentity();
+  const double shift = threshold * largest;
+  const Eigen::SparseMatrix<double> shifted = matrix * matrix.transpose() - shift * shift * unit;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(shifted);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const auto rank = static_cast<int>((factor.vectorD().array() > 0).count());
+  return static_cast<int>(matrix.cols()) - rank;
+}
+
 RebuiltProblem::RebuiltProblem(const Packing& packing)
     : packing_(packing),
       force_unit_(packing.force_unit()),
@@ -89,18 +103,7 @@ const Eigen::MatrixXd& RebuiltProblem::kernel() const {
 }
 
 std::optional<int> RebuiltProblem::nullity_by_inertia(double threshold) const {
-  const Eigen::SparseMatrix<double> matrix = constraints();
-  double largest = 0;
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) largest = std::max(largest, matrix.col(j).norm());
-  if (largest == 0) return static_cast<int>(matrix.cols());
-  Eigen::SparseMatrix<double> unit(matrix.rows(), matrix.rows());
-  unit.setIdentity();
-  const double shift = threshold * largest;
-  const Eigen::SparseMatrix<double> shifted = matrix * matrix.transpose() - shift * shift * unit;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(shifted);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const auto rank = static_cast<int>((factor.vectorD().array() > 0).count());
-  return static_cast<int>(matrix.cols()) - rank;
+  return indet::nullity_by_inertia(constraints(), threshold);
 }
 
 void RebuiltProblem::add_stress(std::vector<Eigen::Triplet<double>>& entries) {

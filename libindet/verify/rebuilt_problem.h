@@ -12,6 +12,10 @@
 
 namespace indet {
 
+/// The nullity of a sparse matrix c, with singular values below `threshold` times its largest column taken
+/// for 0: the signs of LDLᵀ = ccᵀ − τ²·1 count them (Sylvester's law of inertia). None if a pivot vanishes.
+std::optional<int> nullity_by_inertia(const Eigen::SparseMatrix<double>& matrix, double threshold);
+
 /// The equilibrium problem built a second time, straight from the paper and from the packing alone, and
 /// solved with other means than the analysis uses: a contact matrix [15] with all 2M columns (T is held at 0
 /// where μ = 0 by a row of its own), two rows a wall (0 for what is fixed) and three for the stress of the
@@ -23,8 +27,7 @@ class RebuiltProblem {
   explicit RebuiltProblem(const Packing& packing);
 
   int nullity() const { return static_cast<int>(kernel().cols()); }
-  /// The same without the kernel, with singular values of c below `threshold` times its largest column taken
-  /// for 0: the signs of LDLᵀ = ccᵀ − τ²·1 count them (Sylvester's law of inertia). None if a pivot vanishes.
+  /// The same without the kernel.
   std::optional<int> nullity_by_inertia(double threshold) const;
   const Eigen::MatrixXd& kernel() const;  ///< 2M × d, orthonormal
   int contact_count() const { return packing_.contact_count(); }

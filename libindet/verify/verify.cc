@@ -10,13 +10,13 @@
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/range/promise.h"
-#include "libindet/verify/affine_hull.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/distances_check.h"
 #include "libindet/verify/draws_check.h"
 #include "libindet/verify/duals_check.h"
 #include "libindet/verify/enclosed_check.h"
 #include "libindet/verify/estimate_check.h"
+#include "libindet/verify/hull_check.h"
 #include "libindet/verify/kept_states_check.h"
 #include "libindet/verify/motion_check.h"
 #include "libindet/verify/needed_equations.h"
@@ -50,7 +50,7 @@ class Verifier {
     check_enclosed(packing_, ranges_, progress_, compare_);
     if (ranges_.duals.are_kept()) check_duals(ranges_, problem_, compare_);
     check_smallest_distances(packing_, ranges_, problem_, compare_);
-    check_hull();
+    check_hull(packing_, ranges_, problem_, compare_);
     name_the_rest();
     check_reactions(packing_, ranges_, problem_, compare_);
     return compare_.result();
@@ -315,51 +315,6 @@ class Verifier {
         problem_.count_sliding(packing_.simulated_forces().value() / ranges_.force_unit);
     compare_.equal_count(ranges_.sliding, sliding, "sliding");
     compare_.equal_count(ranges_.non_transmitting, idle, "non_transmitting");
-  }
-
-  /// What follows from the directions in which F extends, where the stored states reach its interior.
-  void check_hull() {
-    if (ranges_.status == PolytopeStatus::kEmpty) {
-      compare_.equal_count(ranges_.dim, -1, "dim");
-      compare_.equal_count(ranges_.blocks, 0, "blocks");
-      compare_.equal_count(ranges_.determined, 0, "determined");
-      return;
-    }
-    if (ranges_.blocks < 0) {
-      compare_.leave_unchecked("blocks, determined (the barrier method does not look for them)");
-      return;
-    }
-    std::optional<AffineHull> hull;
-    if (ranges_.states.rows() > 0) {
-      Eigen::VectorXd inside = ranges_.states.colwise().mean().transpose() / ranges_.force_unit;
-      if (ranges_.rays.rows() > 0) inside += ranges_.rays.colwise().sum().transpose();
-      hull = AffineHull::at(problem_, inside);
-    }
-    if (hull) {
-      compare_.require(hull->dim() <= ranges_.dim, "dim: {} is stored, but the states span {} dimensions",
-                       ranges_.dim, hull->dim());
-    }
-    const bool spans = hull && hull->dim() == ranges_.dim;
-    const char* reason = hull                         ? "the stored states do not reach the interior of F"
-                         : ranges_.states.rows() == 0 ? "no states are stored"
-                                                      : "rounding hides them";
-    const std::optional<int> blocks = spans ? hull->blocks() : std::nullopt;
-    if (blocks) {
-      compare_.equal_count(ranges_.blocks, *blocks, "blocks");
-    } else {
-      compare_.leave_unchecked(fmt::format("blocks ({})", reason));
-    }
-    if (spans && hull->freedom_is_clear()) {
-      std::int64_t determined = 0;
-      for (int i = 0; i < packing_.contact_count(); ++i) {
-        if (ranges_.outcome(i, kMinR) == Outcome::kNotRequested) continue;
-        for (const int k : {2 * i, 2 * i + 1})
-          determined += hull->freedom(k) <= tolerance::kDeterminedForce ? 2 : 0;
-      }
-      compare_.equal_count(ranges_.determined, determined, "determined");
-    } else {
-      compare_.leave_unchecked(fmt::format("determined ({})", reason));
-    }
   }
 
   void name_the_rest() {

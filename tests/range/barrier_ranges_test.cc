@@ -12,7 +12,9 @@
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/range/analyze.h"
 #include "libindet/range/enclosure.h"
+#include "tests/support/body_variants.h"
 #include "tests/support/compare.h"
+#include "tests/support/periodic_lattice.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
@@ -33,6 +35,8 @@ void expect_intervals_meet(const ForceRanges& lp, const ForceRanges& barrier) {
   EXPECT_EQ(lp.dim, barrier.dim);
   EXPECT_EQ(lp.rank, barrier.rank);
   EXPECT_EQ(lp.objectives, barrier.objectives);
+  EXPECT_EQ(lp.blocks, barrier.blocks) << barrier.blocks_reason;
+  EXPECT_EQ(lp.determined, barrier.determined);
   if (lp.doubtful) return;
   EXPECT_FALSE(barrier.doubtful);
   EXPECT_EQ(barrier.certified, lp.certified);
@@ -106,6 +110,61 @@ TEST(BarrierRanges, AgreeWithLinearProgramsInTheZoo) {
     found += barrier.method == Method::kBarrier ? 1 : 0;
   }
   EXPECT_GE(found, 10);
+}
+
+/// One packing far at the right of the other.
+Packing side_by_side(const Packing& left, Packing right) {
+  const auto disks = left.disk_count();
+  const auto walls = left.wall_count();
+  Packing both = left;
+  for (Disk& disk : right.disks) disk.position.x() += 1000;
+  for (Wall& wall : right.walls) wall.point.x() += 1000;
+  for (Contact& contact : right.contacts) {
+    contact.a = DiskId(contact.a.value() + disks);
+    contact.b = contact.b.is_wall() ? Body::wall(WallId(contact.b.wall_id().value() + walls))
+                                    : Body::disk(DiskId(contact.b.disk_id().value() + disks));
+  }
+  both.disks.insert(both.disks.end(), right.disks.begin(), right.disks.end());
+  both.walls.insert(both.walls.end(), right.walls.begin(), right.walls.end());
+  both.contacts.insert(both.contacts.end(), right.contacts.begin(), right.contacts.end());
+  return both;
+}
+
+/// Rows and columns of a frictionless array share their disks, and piles their floor.
+TEST(BarrierRanges, TellBlocksAndDeterminedForces) {
+  std::vector<Packing> packings{zoo::biaxial_box(3, 4, 1, 2, 0),
+                                zoo::biaxial_box(3, 3, 1, 2, 0.3),
+                                zoo::disks_between_plates(5, 2, 0.3),
+                                zoo::rack(2),
+                                zoo::frictionless_column(40, 0.5),
+                                zoo::periodic_lattice(3, 3, 0.3, 0.01),
+                                zoo::periodic_lattice(4, 3, 0, 0.01),
+                                side_by_side(zoo::column(4, 0.4, 0.3), zoo::column(3, 0.2, 0.3)),
+                                side_by_side(zoo::lattice_pile(4, 0.6), zoo::frictionless_column(4, 0.4))};
+  for (const double mu : {0.4, -1.0}) {
+    Packing piles = zoo::column(3, 0.4, 0.3);
+    int count = 1;
+    for (std::uint64_t seed = 0; count < 5; ++seed) {
+      const Packing pile = zoo::random_pile(seed, 12, mu);
+      if (find_force_polytope(pile).status != PolytopeStatus::kBounded) continue;
+      piles = side_by_side(piles, pile);
+      ++count;
+    }
+    packings.push_back(std::move(piles));
+  }
+  std::int64_t found = 0, most_blocks = 0, determined = 0;
+  for (std::size_t k = 0; k < packings.size(); ++k) {
+    SCOPED_TRACE(k);
+    const ForceRanges barrier = ranges_by(Method::kBarrier, packings[k]);
+    expect_intervals_meet(ranges_by(Method::kLp, packings[k]), barrier);
+    if (barrier.method != Method::kBarrier) continue;
+    ++found;
+    most_blocks = std::max<std::int64_t>(most_blocks, barrier.blocks);
+    determined += barrier.determined;
+  }
+  EXPECT_GE(found, 8);
+  EXPECT_GE(most_blocks, 5);
+  EXPECT_GT(determined, 20);
 }
 
 TEST(BarrierRanges, AgreeWithLinearProgramsInPiles) {

@@ -20,6 +20,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 void expect_contradiction(const Packing& packing, const ForceRanges& wrong, const std::string& text) {
   const Verification found = verify_ranges(packing, wrong);
@@ -359,6 +360,35 @@ TEST(VerifyRanges, SaysHowManyObjectivesFailedOrAreImprecise) {
 }
 
 /// The hull at the mean of the stored states; the packing has to be one whose states reach the interior.
+/// Without states in the file, and where edges are closed in all states.
+TEST(VerifyRanges, BlocksAndDeterminedForcesOfTheBarrierMethod) {
+  int checked = 0;
+  for (const Packing& packing :
+       {zoo::column(6, 0.4, 0.3), zoo::two_wedges(0.4, 0.3, 0.5, 0.2), zoo::corner(0.4, 1),
+        zoo::biaxial_box(3, 3, 1, 2, 0), zoo::lattice_pile(5, 0.6), zoo::disk_on_floor(0.3),
+        zoo::periodic_lattice(3, 3, 0.3, 0.01), zoo::random_pile(3, 20, 0.4)}) {
+    SCOPED_TRACE(checked);
+    AnalyzeOptions options;
+    options.method = Method::kBarrier;
+    options.states.kind = StateChoice::Kind::kNone;
+    const ForceRanges good = analyze(packing, options);
+    if (good.status == PolytopeStatus::kEmpty) continue;
+    ASSERT_EQ(good.states.rows(), 0);
+    const Verification found = verify_ranges(packing, good);
+    EXPECT_TRUE(found.passed()) << first_message(found);
+    EXPECT_THAT(found.unchecked, Not(Contains(HasSubstr("blocks"))));
+    EXPECT_THAT(found.unchecked, Not(Contains(HasSubstr("determined"))));
+    ForceRanges wrong = good;
+    ++wrong.blocks;
+    expect_contradiction(packing, wrong, "blocks");
+    wrong = good;
+    wrong.determined += 2;
+    expect_contradiction(packing, wrong, "determined");
+    ++checked;
+  }
+  EXPECT_GE(checked, 6);
+}
+
 std::optional<AffineHull> hull_of(const Packing& packing, const ForceRanges& ranges) {
   const RebuiltProblem problem(packing);
   Eigen::VectorXd inside = ranges.states.colwise().mean().transpose() / ranges.force_unit;
