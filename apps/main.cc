@@ -11,9 +11,9 @@
 #include "apps/command.h"
 #include "apps/configuration.h"
 #include "apps/help_format.h"
+#include "apps/interruption.h"
 #include "apps/memory_limit.h"
 #include "apps/suggestion.h"
-#include "apps/terminal.h"
 #include "libindet/base/error.h"
 #include "libindet/base/version.h"
 
@@ -100,10 +100,10 @@ int main(int argc, char** argv) {
     std::_Exit(app::kInternalError);  // threads of OpenBLAS that wait for memory would not end
   }
   try {
-    return app::run(argc, argv);
+    const int status = app::run(argc, argv);
+    return app::caught_signal() == 0 || app::has_written() ? status : app::stopped();
   } catch (const Interrupted&) {
-    complain("interrupted; nothing was written");
-    return 128 + app::caught_signal();
+    return app::stopped();
   } catch (const app::UsageError& error) {
     complain(error.what());
     return app::kUsage;
