@@ -18,6 +18,7 @@
 #include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/members/run.h"
 #include "apps/ensemble_output.h"
+#include "apps/interruption.h"
 #include "apps/memory_limit.h"
 #include "apps/numbers.h"
 #include "apps/output_files.h"
@@ -185,7 +186,10 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
   options.threads = context.thread_count();
   options.first = range.first;
   options.last = range.last;
-  options.progress = context.progress();
+  options.progress = [show = context.progress()](const Progress& progress) {
+    set_remains(fmt::format("done: {}; the same command goes on", progress.details));
+    return show(progress);
+  };
   options.warn = [&](const std::string& text) { context.warn(text); };
   options.provenance = {context.arguments, context.resolved_config, {{"GLPK", glpk_version()}}, {}};
   const RunSummary summary = compute_members(config, plan, folder, options);
@@ -196,19 +200,13 @@ int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   const int asked = range.last - range.first + 1;
-  const auto stop = [&] { return report_interruption(summary.done + summary.skipped, asked); };
-  if (summary.interrupted) return stop();
+  if (summary.interrupted) return stopped();
   if (context.prints_report()) print_molecular_dynamics(config, o.preset);
   Outcomes outcomes{.done = summary.done, .skipped = summary.skipped, .failures = summary.failures};
   if (asked < static_cast<int>(plan.members.size())) {
     return report_part(folder, range.first, range.last, outcomes, seconds(), context);
   }
-  Collection collection;
-  try {
-    collection = collect_members(plan, {folder}, context.progress());
-  } catch (const Interrupted&) {
-    return stop();
-  }
+  Collection collection = collect_members(plan, {folder}, context.progress());
   return finish_ensemble(folder, plan, std::move(collection), outcomes, seconds, context);
 }
 

@@ -11,7 +11,6 @@
 #include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/say.h"
-#include "apps/terminal.h"
 
 namespace indet::app {
 namespace {
@@ -61,12 +60,6 @@ int report_part(const std::filesystem::path& folder, int first, int last, const 
     say("join the parts with indet merge\n");
   }
   return outcomes.failures.empty() ? kDone : kUncertain;
-}
-
-int report_interruption(int done, int asked) {
-  std::cerr << fmt::format("indet: interrupted; {} of {} {} done; the same command goes on\n", done,
-                           counted(asked, "packing"), done == 1 ? "is" : "are");
-  return 128 + caught_signal();
 }
 
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,

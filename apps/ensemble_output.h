@@ -28,10 +28,6 @@ void claim_folder(const std::filesystem::path& folder, const Plan& plan, const R
 int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
                 double seconds, const Context& context);
 
-/// Says on stderr how far a run came that was told to stop: `done` of the `asked` members are there. Returns
-/// the exit status.
-int report_interruption(int done, int asked);
-
 /// Writes what was collected to FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5 if
 /// members are missing or something is imprecise.
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,

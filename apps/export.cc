@@ -155,8 +155,7 @@ void write_numbers(const std::filesystem::path& output, const std::string& forma
   if (format == "vtkhdf") {
     write_vtkhdf(output, packing, state.forces, ranges, {context.arguments, context.resolved_config, {}, {}});
   } else if (format == "extxyz") {
-    write_bonds(bonds_path_of(output), packing, state.forces, ranges);
-    write_particles(output, packing);
+    write_ovito_files(output, packing, state.forces, ranges);
   } else if (output.extension() == ".csv") {
     write_contact_table(output, packing, state.forces, ranges);
   } else {

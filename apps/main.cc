@@ -15,10 +15,10 @@
 #include "apps/command.h"
 #include "apps/configuration.h"
 #include "apps/help_format.h"
+#include "apps/interruption.h"
 #include "apps/memory_limit.h"
 #include "apps/numbers.h"
 #include "apps/suggestion.h"
-#include "apps/terminal.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
 #include "libindet/base/version.h"
@@ -135,11 +135,11 @@ int main(int argc, char** argv) {
   }
   try {
     const int status = app::run(argc, argv);
+    if (app::caught_signal() != 0 && !app::has_written()) return app::stopped();
     app::flush_output();
     return status;
   } catch (const Interrupted&) {
-    complain("interrupted; nothing was written");
-    return 128 + app::caught_signal();
+    return app::stopped();
   } catch (const app::UsageError& error) {
     complain(error.what());
     return app::kUsage;

@@ -30,19 +30,6 @@ struct MergeCommand {
   bool overwrite = false;
 };
 
-/// A second name for the same bytes where the file system can, else a copy. It takes the place of a file that
-/// is not whole at once, so that `to` is never half there.
-void bring(const fs::path& from, const fs::path& to) {
-  const fs::path temporary = temporary_name(to);
-  std::error_code error;
-  fs::create_hard_link(from, temporary, error);
-  if (error) fs::copy_file(from, temporary, error);
-  if (!error) fs::rename(temporary, to, error);
-  std::error_code ignored;
-  fs::remove(temporary, ignored);  // there still if both were one file already
-  if (error) throw InputError(fmt::format("{}: cannot be written ({})", to.string(), error.message()));
-}
-
 int run(const MergeCommand& o, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<fs::path> parts(o.parts.begin(), o.parts.end());
@@ -86,7 +73,7 @@ int run(const MergeCommand& o, const Context& context) {
       if (!member_is_done(from, member)) continue;
       ++outcomes.skipped;
       if (!member_is_done(member_path(folder, member.name), member))
-        bring(from, member_path(folder, member.name));
+        link_whole_file(from, member_path(folder, member.name));
       break;
     }
   }

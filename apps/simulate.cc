@@ -13,6 +13,7 @@
 
 #include "apps/bridge/simulation_values.h"
 #include "apps/command.h"
+#include "apps/interruption.h"
 #include "apps/memory_limit.h"
 #include "apps/numbers.h"
 #include "apps/output_files.h"
@@ -248,8 +249,11 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   const bool falls = o.from.empty() && !starts_from_cd1(o.protocol());
   if (falls && is_usual && !resume)
     note_time(properties_of(o.protocol()).simulator.value(), start.world.size(), context);
+  std::optional<CheckpointTime> checkpoint_time;
+  if (has_checkpoints) checkpoint_time.emplace();
   const sim::Simulation result =
       sim::simulate(start.world, {}, options, listener, resume ? &*resume : nullptr);
+  checkpoint_time.reset();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   Packing packing = result.packing;

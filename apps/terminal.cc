@@ -1,11 +1,8 @@
-#include "apps/terminal.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -13,18 +10,12 @@
 #include <thread>
 
 #include "apps/command.h"
+#include "apps/interruption.h"
 #include "libindet/base/printable.h"
 #include "libindet/base/remaining_time.h"
 
 namespace indet::app {
 namespace {
-
-volatile std::sig_atomic_t signal_number = 0;
-
-void remember(int number) {
-  signal_number = number;
-  std::signal(number, SIG_DFL);
-}
 
 using Clock = std::chrono::steady_clock;
 
@@ -94,13 +85,6 @@ class ProgressBar {
 
 }  // namespace
 
-void catch_signals() {
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
-}
-
-int caught_signal() { return signal_number; }
-
 int Context::thread_count() const {
   return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
@@ -109,7 +93,7 @@ ProgressCallback Context::progress() const {
   const bool visible = !quiet && isatty(STDERR_FILENO) == 1;
   return [bar = std::make_shared<ProgressBar>(visible)](const Progress& progress) {
     bar->update(progress);
-    return signal_number == 0;
+    return caught_signal() == 0;
   };
 }
 

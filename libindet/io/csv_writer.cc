@@ -128,10 +128,10 @@ void write_csv_scene(const std::filesystem::path& folder, const Packing& packing
                                  error ? error.message() : "there is a file of this name"));
   }
   const FileIds ids(packing);
-  write_whole_file(folder / "disks.csv", disks_text(packing, ids));
-  write_whole_file(folder / "walls.csv", walls_text(packing, ids));
-  write_whole_file(folder / "contacts.csv", contacts_text(packing, ids, forces));
-  write_whole_file(folder / "scene.toml", scene_file_text(packing));
+  write_whole_files({{folder / "disks.csv", disks_text(packing, ids)},
+                     {folder / "walls.csv", walls_text(packing, ids)},
+                     {folder / "contacts.csv", contacts_text(packing, ids, forces)},
+                     {folder / "scene.toml", scene_file_text(packing)}});
 }
 
 void write_contact_table(const std::filesystem::path& path, const Packing& packing,

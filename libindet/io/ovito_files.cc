@@ -77,9 +77,7 @@ std::string box_text(const VtkGrid& grid) {
   return text + fmt::format("{} {}\n", -thickness, thickness);
 }
 
-}  // namespace
-
-void write_particles(const std::filesystem::path& path, const Packing& packing) {
+std::string particles_text(const Packing& packing) {
   const VtkGrid grid = vtk_grid(packing);
   const std::vector<std::int64_t> ids = particle_ids(packing, grid);
   std::string text = fmt::format("{}\n{}", grid.point_count(), comment(packing));
@@ -90,11 +88,11 @@ void write_particles(const std::filesystem::path& path, const Packing& packing) 
                         is_disk ? grid.radius[i] : kFootRadius * packing.max_radius(),
                         is_disk ? packing[DiskId(grid.body[i])].mass : 0);
   }
-  write_whole_file(path, text);
+  return text;
 }
 
-void write_bonds(const std::filesystem::path& path, const Packing& packing,
-                 const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges) {
+std::string bonds_text(const Packing& packing, const Eigen::Ref<const Eigen::VectorXd>& forces,
+                       const ForceRanges* ranges) {
   const VtkGrid grid = vtk_grid(packing);
   const std::vector<std::int64_t> ids = particle_ids(packing, grid);
   const auto particle = [&](int end) {
@@ -126,7 +124,15 @@ void write_bonds(const std::filesystem::path& path, const Packing& packing,
     }
     text += "\n";
   }
-  write_whole_file(path, text);
+  return text;
+}
+
+}  // namespace
+
+void write_ovito_files(const std::filesystem::path& particles, const Packing& packing,
+                       const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges) {
+  write_whole_files({{particles, particles_text(packing)},
+                     {bonds_path_of(particles), bonds_text(packing, forces, ranges)}});
 }
 
 std::filesystem::path bonds_path_of(const std::filesystem::path& particles) {

@@ -18,20 +18,19 @@ namespace indet {
 /// those of feet and images the next ones. These have mass 0 and the radius kFootRadius r_max: OVITO takes a
 /// radius of 0 for an unknown one. A cell is the Lattice, with pbc; where one of its vectors is missing, a
 /// perpendicular one as long as the packing stands in its place, and pbc is F there.
-void write_particles(const std::filesystem::path& path, const Packing& packing);
-inline constexpr double kFootRadius = 0.02;
-
+///
 /// Bonds are the contacts, in their order; columns index (from 1), ParticleIdentifiers.A and .B (names that
 /// OVITO knows), mu, gap, R_mg, T_mg, and with `ranges` (else null) the columns of the table of contacts
 /// (io/contact_columns.h); an outcome is a number, 0 … 4 for optimal … not_requested. `forces` (2M) and
 /// `ranges` are given in the scene's unit of force. Unknown values are nan, unbounded ones inf.
-void write_bonds(const std::filesystem::path& path, const Packing& packing,
-                 const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges);
+void write_ovito_files(const std::filesystem::path& particles, const Packing& packing,
+                       const Eigen::Ref<const Eigen::VectorXd>& forces, const ForceRanges* ranges);
+inline constexpr double kFootRadius = 0.02;
 
 /// Where the bonds of the particles in `particles` are written: NAME.extxyz and NAME.bonds.dump.
 std::filesystem::path bonds_path_of(const std::filesystem::path& particles);
 
-/// True if a text begins as one that write_particles or write_bonds writes.
+/// True if a text begins as one of these files.
 bool is_particle_file(std::string_view text);
 bool is_bond_file(std::string_view text);
 

@@ -10,7 +10,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -50,6 +54,18 @@ int sync_folder_of(const std::filesystem::path& path) {
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   return error;
+}
+
+/// What this process is writing under temporary names. It is not destroyed: threads may outlive main().
+struct Unfinished {
+  std::mutex mutex;  ///< held while a name appears or disappears
+  std::set<std::filesystem::path> names;
+  std::function<bool()> permission = [] { return true; };
+};
+
+Unfinished& unfinished() {
+  static Unfinished* const only = new Unfinished;
+  return *only;
 }
 
 constexpr std::size_t kLongestName = 150;  // of 255 bytes; a host has 64 at most
@@ -104,6 +120,7 @@ WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
   target_ = destination.path;
   if (destination.is_stream) return;
   const std::filesystem::path temporary = temporary_name(target_);
+  const std::scoped_lock lock(unfinished().mutex);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     throw InputError(
@@ -111,10 +128,14 @@ WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
   }
   ::close(descriptor);
   temporary_ = temporary;
+  unfinished().names.insert(temporary);
 }
 
 WholeFile::~WholeFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  const std::scoped_lock lock(unfinished().mutex);
+  ::unlink(temporary_.c_str());
+  unfinished().names.erase(temporary_);
 }
 
 WholeFile::WholeFile(WholeFile&& other) noexcept
@@ -122,24 +143,83 @@ WholeFile::WholeFile(WholeFile&& other) noexcept
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})) {}
 
-void WholeFile::commit(std::span<const unsigned char> bytes) {
-  const auto check = [&](int error) {
-    if (error == 0) return;
-    throw LibraryError(
-        fmt::format("{}: writing failed ({})", path_.string(), std::generic_category().message(error)));
-  };
-  if (temporary_.empty()) {
-    check(write_into(target_, bytes, false));
-    return;
+void WholeFile::check(int error) const {
+  if (error == 0) return;
+  throw LibraryError(
+      fmt::format("{}: writing failed ({})", path_.string(), std::generic_category().message(error)));
+}
+
+void WholeFile::write(std::span<const unsigned char> bytes) {
+  if (!temporary_.empty()) return check(write_into(temporary_, bytes, true));
+  if (!unfinished().permission()) throw Interrupted();
+  check(write_into(target_, bytes, false));
+}
+
+void WholeFile::take_names(std::span<WholeFile> files) {
+  {
+    const std::scoped_lock lock(unfinished().mutex);
+    const bool only_streams = std::all_of(files.begin(), files.end(),
+                                          [](const WholeFile& file) { return file.temporary_.empty(); });
+    if (only_streams) return;
+    if (!unfinished().permission()) throw Interrupted();
+    for (WholeFile& file : files) {
+      if (file.temporary_.empty()) continue;
+      file.check(::rename(file.temporary_.c_str(), file.target_.c_str()) == 0 ? 0 : errno);
+      unfinished().names.erase(file.temporary_);
+      file.temporary_.clear();
+    }
   }
-  check(write_into(temporary_, bytes, true));
-  check(::rename(temporary_.c_str(), target_.c_str()) == 0 ? 0 : errno);
-  temporary_.clear();
-  check(sync_folder_of(target_));
+  for (const WholeFile& file : files) file.check(sync_folder_of(file.target_));
+}
+
+void WholeFile::commit(std::span<const unsigned char> bytes) {
+  write(bytes);
+  take_names({this, 1});
 }
 
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes) {
-  WholeFile(path).commit({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  write_whole_files({{path, bytes}});
+}
+
+void write_whole_files(const std::vector<FileText>& texts) {
+  std::vector<WholeFile> files;
+  for (const FileText& text : texts) files.emplace_back(text.path);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string& bytes = texts[i].bytes;
+    files[i].write({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  }
+  WholeFile::take_names(files);
+}
+
+void link_whole_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  {
+    const std::filesystem::path temporary = temporary_name(to);
+    const std::scoped_lock lock(unfinished().mutex);
+    if (!unfinished().permission()) throw Interrupted();
+    std::filesystem::create_hard_link(from, temporary, error);
+    if (!error) {
+      std::filesystem::rename(temporary, to, error);
+      ::unlink(temporary.c_str());  // there still if both were one file already
+      if (error) throw InputError(fmt::format("{}: cannot be written ({})", to.string(), error.message()));
+      return;
+    }
+  }
+  std::ifstream file(from, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  if (!file) throw InputError(fmt::format("{}: cannot be read", from.string()));
+  write_whole_file(to, bytes.str());
+}
+
+void ask_before_writing(std::function<bool()> permission) {
+  const std::scoped_lock lock(unfinished().mutex);
+  unfinished().permission = std::move(permission);
+}
+
+void abandon_files() {
+  unfinished().mutex.lock();
+  for (const std::filesystem::path& name : unfinished().names) ::unlink(name.c_str());
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {

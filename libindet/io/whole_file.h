@@ -1,10 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace indet {
+
+/// The bytes of a file.
+struct FileText {
+  std::filesystem::path path;
+  std::string bytes;
+};
 
 /// A file that takes its name when it is whole: it is written under a temporary name in the folder of its
 /// destination, synced and renamed. What is not committed leaves nothing behind, and an old file stays as it
@@ -17,10 +25,15 @@ class WholeFile {
   WholeFile(WholeFile&& other) noexcept;
   WholeFile& operator=(WholeFile&& other) = delete;
 
-  /// Throws LibraryError if writing fails (a full disk). Once.
+  /// Throws LibraryError if writing fails (a full disk), Interrupted without permission. Once.
   void commit(std::span<const unsigned char> bytes);
 
  private:
+  friend void write_whole_files(const std::vector<FileText>& texts);
+  void write(std::span<const unsigned char> bytes);
+  void check(int error) const;
+  static void take_names(std::span<WholeFile> files);
+
   std::filesystem::path path_;       ///< As given, for messages.
   std::filesystem::path target_;     ///< With links followed.
   std::filesystem::path temporary_;  ///< Empty for a stream, and after the end.
@@ -28,6 +41,21 @@ class WholeFile {
 
 /// All at once.
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes);
+
+/// Files that belong together: none takes its name before all are written.
+void write_whole_files(const std::vector<FileText>& texts);
+
+/// A second name for the same bytes where the file system can, else a copy, which takes the place of a file
+/// that is there. Throws InputError where it cannot be written, Interrupted without permission.
+void link_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// For a program that writes nothing more once it is told to stop: `permission` is asked, on the thread that
+/// writes, before files take their names. Without it, they do not. By default none is needed.
+void ask_before_writing(std::function<bool()> permission);
+
+/// For a program that is about to end at once, from any thread: removes what this process is writing under
+/// temporary names. From now on, who begins a file or is to name one waits for ever.
+void abandon_files();
 
 /// The name that a file is written under until it is whole: .NAME.HOST.PROCESS.COUNTER.tmp, new with every
 /// call. A long NAME is cut, and a dot in HOST is written as −.

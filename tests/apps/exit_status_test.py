@@ -4,13 +4,10 @@ Arguments: the indet executable, the LAMMPS dumps.
 """
 
 import json
-import os
 import pathlib
-import re
 import signal
 import subprocess
 import sys
-import time
 
 import h5py
 
@@ -121,31 +118,13 @@ class Interrupted(program.ProgramTest):
             with self.subTest(number):
                 process = subprocess.Popen([program.INDET, "analyze", "p.h5"], cwd=self.folder,
                                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-                self.wait_until_under_way(process, number, 0.2)
+                program.wait_until_under_way(process, number, 0.2)
                 process.send_signal(number)
                 output, errors = process.communicate(timeout=60)
                 self.assertEqual(process.returncode, 128 + number, errors)
                 self.assertEqual(output, "")
                 self.assertEqual(errors, "indet: interrupted; nothing was written\n")
                 self.assertEqual(self.files(), ["p.h5"])
-
-    @staticmethod
-    def wait_until_under_way(process, number, seconds):
-        """Until the program catches the signal and has worked for `seconds` of processor time since then."""
-        folder = pathlib.Path(f"/proc/{process.pid}")
-        ticks = os.sysconf("SC_CLK_TCK")
-        start = None
-        deadline = time.monotonic() + 60
-        while time.monotonic() < deadline:
-            caught = re.search(r"SigCgt:\s*(\w+)", (folder / "status").read_text())
-            if caught and int(caught[1], 16) >> (number - 1) & 1:
-                fields = (folder / "stat").read_text().rsplit(")", 1)[1].split()
-                spent = int(fields[11]) + int(fields[12])
-                start = spent if start is None else start
-                if spent - start >= seconds * ticks:
-                    return
-            time.sleep(0.02)
-        raise TimeoutError("the analysis does not get ahead")
 
 
 if __name__ == "__main__":

@@ -207,8 +207,7 @@ class Commands(EnsembleTest):
     def test_an_interrupt_leaves_whole_files_and_says_how_many(self):
         for number in (1, 4):  # of which the first ones are there already
             error, done = self.interrupt("--seeds", "20", "--first-seed", "20", *LONGER, after=number)
-            verb = "is" if done == 1 else "are"
-            self.assertEqual(error, f"indet: interrupted; {done} of 80 packings {verb} done; the same command goes on\n")
+            self.assertEqual(error, f"indet: interrupted; done: {done} of 80 packings; the same command goes on\n")
         self.assertFalse((self.folder / "e/ensemble.h5").exists())
         for path in (self.folder / "e/members").iterdir():
             self.assertEqual(path.suffix, ".h5", error)

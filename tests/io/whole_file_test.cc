@@ -7,6 +7,7 @@
 #include <chrono>
 #include <string>
 
+#include "libindet/base/error.h"
 #include "libindet/io/hdf5_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -78,6 +79,41 @@ TEST(WholeFile, NoOtherFileIsTakenForALeftover) {
   }
   remove_leftovers(folder.path());
   for (const char* name : names) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
+TEST(WholeFile, NothingTakesItsNameWithoutPermission) {
+  const test::TemporaryFolder folder;
+  write_whole_file(folder / "old", "old");
+  ask_before_writing([] { return false; });
+  EXPECT_THROW(write_whole_file(folder / "new", "new"), Interrupted);
+  EXPECT_THROW(link_whole_file(folder / "old", folder / "linked"), Interrupted);
+  ask_before_writing([] { return true; });
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+  link_whole_file(folder / "old", folder / "linked");
+  EXPECT_EQ(folder.read("linked"), "old");
+}
+
+TEST(WholeFile, FilesThatBelongTogetherComeTogether) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(write_whole_files({{folder / "a", "a"}, {folder / "missing" / "b", "b"}}), InputError);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  write_whole_files({{folder / "a", "a"}, {folder / "b", "b"}});
+  EXPECT_EQ(folder.read("a") + folder.read("b"), "ab");
+}
+
+TEST(WholeFile, AProgramThatEndsAtOnceLeavesNothingUnfinished) {
+  const test::TemporaryFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    const WholeFile file(folder / "a");
+    if (fs::is_empty(folder.path())) _exit(1);
+    abandon_files();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(WholeFile, NamesMayBeAsLongAsTheFileSystemAllows) {

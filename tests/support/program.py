@@ -1,10 +1,13 @@
 """What the tests of the program share: running it in a folder of its own, and small scenes with known answers."""
 
 import math
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import h5py
@@ -27,6 +30,26 @@ def main(*names):
 def run(command, folder, environment=None):
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False,
                           env=environment)
+
+
+def wait_until_under_way(process, number, seconds):
+    """Until the program catches the signal and has worked for `seconds` of processor time since then."""
+    folder = pathlib.Path(f"/proc/{process.pid}")
+    ticks = os.sysconf("SC_CLK_TCK")
+    start = None
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        if process.poll() is not None:
+            raise AssertionError(f"the program ended before the signal, with status {process.returncode}")
+        caught = re.search(r"SigCgt:\s*(\w+)", (folder / "status").read_text())
+        if caught and int(caught[1], 16) >> (number - 1) & 1:
+            fields = (folder / "stat").read_text().rsplit(")", 1)[1].split()
+            spent = int(fields[11]) + int(fields[12])
+            start = spent if start is None else start
+            if spent - start >= seconds * ticks:
+                return
+        time.sleep(0.02)
+    raise TimeoutError("the program does not get ahead")
 
 
 def groove(angle=math.pi / 6, mu=0.3):

@@ -77,8 +77,9 @@ class Batch {
   /// Reports progress from the calling thread until the workers are done.
   void watch() {
     std::unique_lock lock(mutex_);
-    while (!finished_) {
-      changed_.wait_for(lock, milliseconds(100));
+    for (bool is_last = false; !is_last;) {
+      changed_.wait_for(lock, milliseconds(100), [this] { return finished_; });
+      is_last = finished_;
       const std::string details =
           fmt::format("{} of {} packings{}", summary_.done + summary_.skipped, asked_,
                       summary_.failures.empty() ? "" : fmt::format(", {} failed", summary_.failures.size()));
@@ -105,6 +106,7 @@ class Batch {
         write_member(member_path(folder_, member.name), member, result, options_.provenance);
       }
     } catch (const Interrupted&) {
+      stop_ = true;
       return;
     } catch (const std::exception& error) {
       const std::scoped_lock lock(mutex_);
