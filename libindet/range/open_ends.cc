@@ -36,7 +36,7 @@ void close_open_ends(const Packing& packing, const std::vector<int>& contacts, c
   if (open.empty() && !with_sums) return;
   const std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
   if (!sparse || !sparse->unbounded) return;
-  const BarrierRanges found = find_barrier_ranges(packing, *sparse, open, with_sums, options);
+  const BarrierRanges found = find_barrier_ranges(packing, *sparse, open, {}, with_sums, options);
   for (const int i : open) {
     for (int column = 0; column < 4; ++column) {
       if (!std::isfinite(extrema.value(i, column))) continue;
