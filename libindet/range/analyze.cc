@@ -301,8 +301,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   const bool reactions_proven =
       enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);
   if (enclosures.proven && polytope.status == PolytopeStatus::kUnbounded)
-    close_open_ends(packing, contacts, extrema, reactions, interval_options(options, "enclosures"),
-                    enclosures);
+    close_open_ends(packing, contacts, extrema, reactions, {1e-6, options.threads, {}}, enclosures);
   if (enclosures.proven && polytope.exact)
     settle_exactly(packing, polytope, extrema, reactions.optima, enclosures);
   stopwatch.mark("enclosures");
