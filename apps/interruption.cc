@@ -70,7 +70,7 @@ bool wait_for_signal(Seconds time) {
   return result == 0;
 }
 
-void say(const std::string& text) {
+void tell(const std::string& text) {
   const std::string line = fmt::format("{}indet: {}\n", isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "", text);
   if (write(STDERR_FILENO, line.data(), line.size()) < 0) return;  // there is nobody to tell
 }
@@ -81,7 +81,7 @@ void say(const std::string& text) {
   }
   const bool is_urgent = wait_for_signal(kGrace);
   if (!is_urgent && checkpoint_times > 0) {
-    say("stopping; a checkpoint is written at the end of this step (once more Ctrl-C or SIGTERM: none)");
+    tell("stopping; a checkpoint is written at the end of this step (once more Ctrl-C or SIGTERM: none)");
     wait_for_signal(kCheckpointGrace);
   }
   abandon_files();
@@ -110,7 +110,7 @@ int stopped() {
   if (told.exchange(true)) return 128 + signal_number;
   const std::scoped_lock lock(remains().mutex);
   const std::string& text = remains().text;
-  say("interrupted; " + (!text.empty() ? text
+  tell("interrupted; " + (!text.empty() ? text
                          : wrote       ? "what was written before is whole"
                                        : "nothing was written"));
   return 128 + signal_number;
