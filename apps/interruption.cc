@@ -111,8 +111,8 @@ int stopped() {
   const std::scoped_lock lock(remains().mutex);
   const std::string& text = remains().text;
   tell("interrupted; " + (!text.empty() ? text
-                         : wrote       ? "what was written before is whole"
-                                       : "nothing was written"));
+                          : wrote       ? "what was written before is whole"
+                                        : "nothing was written"));
   return 128 + signal_number;
 }
 

@@ -84,13 +84,18 @@ void parse_numbers(CLI::App& root, std::vector<std::string> arguments) {
   try {
     root.parse(arguments);
   } catch (const CLI::ConversionError& error) {
-    // "Could not convert: --disks = 4294967301": a whole number, as check_whole() has let it pass.
+    // "Could not convert: --disks = 4294967301": a whole number, as check_whole() has let it pass; or the
+    // value of a flag in a configuration.
     const std::string text = error.what();
     const std::size_t name = text.find("--");
     const std::size_t value = text.find(" = ", name);
     if (name == std::string::npos || value == std::string::npos) throw;
+    const std::string given = text.substr(value + 3);
+    std::int64_t number = 0;
+    const bool is_whole = parse_all(given, number) != std::errc::invalid_argument;
     throw CLI::ValidationError(text.substr(name, value - name),
-                               excerpt(text.substr(value + 3)) + " does not fit into 32 bits");
+                               is_whole ? excerpt(given) + " does not fit into 32 bits"
+                                        : fmt::format("\"{}\" is neither true nor false", excerpt(given)));
   }
 }
 

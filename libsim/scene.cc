@@ -52,9 +52,9 @@ std::vector<Wall> walls_of(const Scene& scene) {
   return walls;
 }
 
-/// What no weight, moment of inertia, or square of them, leaves the range of a double with.
-constexpr double kLeast = 1e-30;
-constexpr double kMost = 1e30;
+/// Numbers whose products are in the range of a double.
+constexpr double kLeast = 1e-60;
+constexpr double kMost = 1e60;
 
 /// The first dimensional number of the scene that is out of this range; 0 where `may_be_zero`.
 std::optional<std::string> out_of_range(const Scene& scene) {

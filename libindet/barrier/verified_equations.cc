@@ -294,12 +294,9 @@ VerifiedEquations::Transposed VerifiedEquations::reduced_costs(const Objective& 
 }
 
 double VerifiedEquations::lower_bound(const Objective& objective, std::span<const double> y) const {
-  // Strengths are not negative, and so is no sum of them: what y = 0 proves.
-  const bool is_sum =
-      std::all_of(objective.begin(), objective.end(), [](const auto& entry) { return entry.second >= 0; });
-  double best = is_sum ? 0 : -kInfinity;
   if (structure_.has_limit()) {
     // How small h_k is on the edges of a ray, in units of the limit's multiplier, differs: all bounds hold.
+    double best = -kInfinity;
     for (const double resting : {0.0, 10.0, 1e3})
       best = std::max(best, lower_bound_beyond_limit(objective, {y.begin(), y.end()}, resting));
     return best;
@@ -312,7 +309,7 @@ double VerifiedEquations::lower_bound(const Objective& objective, std::span<cons
     if (!(h <= 0)) excess += h * strength_[k];
   }
   const double bound = load.value - load.error - widen_ * widen_ * excess;
-  return std::isnan(bound) ? best : std::max(best, bound);
+  return std::isnan(bound) ? -kInfinity : bound;
 }
 
 double VerifiedEquations::lower_bound_beyond_limit(const Objective& objective, std::vector<double> y,

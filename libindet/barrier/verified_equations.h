@@ -75,7 +75,7 @@ class VerifiedEquations {
                      const NearestSolution& nearest) const;
   /// Bounds of the least value of the objective. `x`: repaired. They hold whatever x and y are.
   ValueBounds enclose(const Objective& objective, std::span<const double> x, std::span<const double> y) const;
-  /// The lower one of these bounds, of any y; not below 0 where no coefficient is negative.
+  /// The lower one of these bounds, of any y.
   double lower_bound(const Objective& objective, std::span<const double> y) const;
   /// Multipliers y that make ‖X (c − Aᵀ y)‖₂ least, from one solution: (A X² Aᵀ) y = A X² cᵀ.
   std::vector<double> nearest_multipliers(const Objective& objective) const;

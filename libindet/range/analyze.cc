@@ -300,8 +300,11 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
       enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);
-  if (enclosures.proven && polytope.status == PolytopeStatus::kUnbounded)
-    close_open_ends(packing, contacts, extrema, reactions, {1e-6, options.threads, {}}, enclosures);
+  if (enclosures.proven && polytope.status == PolytopeStatus::kUnbounded) {
+    // What is promised is relative to loads, which may be far below 1 mg.
+    const double gap = 0.01 * tolerance::kCertifiedWidth;
+    close_open_ends(packing, contacts, extrema, reactions, {gap, options.threads, {}}, enclosures);
+  }
   if (enclosures.proven && polytope.exact)
     settle_exactly(packing, polytope, extrema, reactions.optima, enclosures);
   stopwatch.mark("enclosures");

@@ -258,7 +258,9 @@ class BarrierSearch {
       result_.reactions.lower(target.row, target.column) = lower;
       result_.reactions.upper(target.row, target.column) = upper;
     } else {
-      result_.enclosures.lower(target.row, target.column) = lower;
+      // Contacts do not pull.
+      result_.enclosures.lower(target.row, target.column) =
+          target.column == kMinR || target.column == kMaxR ? std::max(lower, 0.0) : lower;
       result_.enclosures.upper(target.row, target.column) = upper;
       result_.enclosures.sensitivity(target.row, target.column) = interval.sensitivity;
     }

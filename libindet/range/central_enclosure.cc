@@ -147,7 +147,9 @@ class CentralEncloser {
   void store(Eigen::Index i, int column, const barrier::ValueBounds& least, double sensitivity) {
     const auto [lower, upper] = value_bounds(least, sign_of(column), problem_);
     const double stored = extrema_.value(i, column);
-    enclosures_.lower(i, column) = std::min(stored, lower);
+    const double least_possible =
+        column == kMinR || column == kMaxR ? 0 : -kInfinity;  // contacts do not pull
+    enclosures_.lower(i, column) = std::min(stored, std::max(lower, least_possible));
     enclosures_.upper(i, column) = std::max(stored, upper);
     enclosures_.sensitivity(i, column) = sensitivity;
   }

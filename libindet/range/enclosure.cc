@@ -306,8 +306,9 @@ class Encloser {
       if (is_determined) inner = std::max(inner, -from_above(f.opposite(), -y));
     }
     const double unit = problem_.units.internal_in_scene();
-    const double least = column == kMinR ? 0 : -kInfinity;  // contacts do not pull
-    const double low = std::max(least, sign > 0 ? inner : -outer);
+    const double least_possible =
+        column == kMinR || column == kMaxR ? 0 : -kInfinity;  // contacts do not pull
+    const double low = std::max(least_possible, sign > 0 ? inner : -outer);
     const double high = sign > 0 ? outer : -inner;
     enclosures_.lower(i, column) = std::min(stored, widened(low, -1, unit));
     enclosures_.upper(i, column) = std::max(stored, widened(high, 1, unit));

@@ -182,7 +182,7 @@ class Reactions(program.ProgramTest):
             value, lower, upper = (group[name][:] for name in ("value", "lower", "upper"))
             self.assertTrue((lower <= value).all() and (value <= upper).all())
             finite = np.isfinite(value) & np.isfinite(lower) & np.isfinite(upper)
-            self.assertLess(np.max(upper[finite] - lower[finite], initial=0), 1e-8)
+            self.assertLess(np.max(upper[finite] - lower[finite], initial=0), 1e-7)
             self.assertEqual(set(group["outcome"][:].ravel()) - {0, 1}, set())
             return {(int(b), int(c)): tuple(v) for b, c, v in zip(group["body"][:], group["component"][:], value)}
 

@@ -52,9 +52,9 @@ class Options(program.ProgramTest):
             done = self.run_indet("simulate", "--protocol", "cd1", "-o", "s.h5", f"{option}={value}", status=2)
             self.assertTrue(done.stderr.startswith(f"indet: {option}: "), done.stderr)
             self.assertIn(message, done.stderr)
-        for option, value, message in (("--gravity", "1e-200,0", "gravity must be 0, or from 1e-30 to 1e+30"),
-                                       ("--gravity", "1e200,0", "gravity must be 0, or from 1e-30 to 1e+30"),
-                                       ("--radius", "1,1e200", "radius must be from 1e-30 to 1e+30"),
+        for option, value, message in (("--gravity", "1e-200,0", "gravity must be 0, or from 1e-60 to 1e+60"),
+                                       ("--gravity", "1e200,0", "gravity must be 0, or from 1e-60 to 1e+60"),
+                                       ("--radius", "1,1e200", "radius must be from 1e-60 to 1e+60"),
                                        ("--residual", "-1", "residual must be positive")):
             done = self.run_indet("simulate", "--protocol", "cd1", "-o", "s.h5", f"{option}={value}", status=3)
             self.assertIn(message, done.stderr)

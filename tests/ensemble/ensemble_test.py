@@ -370,8 +370,8 @@ class Agreement(EnsembleTest):
         self.assertNotIn("smallest_distances", without)
         self.assertTrue(np.isnan(table(self.folder / "e/ensemble.h5", "contacts")["d_R_min"]).all())
         (self.folder / "wrong.toml").write_text('[ensemble]\nsmallest-distances = "some"\n')
-        done = self.run_indet("--config", "wrong.toml", "ensemble", *arguments, "-o", "f", status=2)
-        self.assertIn("--smallest-distances = some", done.stderr)
+        done = self.run_indet("--config", "wrong.toml", "ensemble", *arguments, "-o", "f", status=3)
+        self.assertIn('wrong.toml:2: smallest-distances: "some" is neither true nor false', done.stderr)
 
     def test_threads_change_nothing(self):
         for threads in ("1", "3"):

@@ -105,7 +105,7 @@ class Damage(ImportTest):
     def test_values_that_say_nothing(self):
         for option in ("--timestep", "--force-unit"):
             message = self.read(*LAMMPS, option, "", status=2)
-            self.assertRegex(message, rf"{option}: .*(the value is empty|is not a number)")
+            self.assertRegex(message, rf"{option}: .*(the value is empty|is not a (whole )?number)")
         for value in ("0", "-1", "nan", "x"):
             message = self.read(*LAMMPS, "--force-unit", value, status=2)
             self.assertIn(f'--force-unit: "{value}" is not a number > 0', message)

@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
     rare.state_contacts = Eigen::Array2i(1, 4);
     rare.sample_seed = 12;
     rare.reason = "a reason";
+    rare.blocks = -1;
+    rare.blocks_reason = "rounding decides";
     rare.gap = 1e-6;
     rare.enclosed = 3;
     rare.smallest = indet::test::sample_distances();

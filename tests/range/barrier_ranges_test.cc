@@ -168,7 +168,7 @@ TEST(BarrierRanges, TellBlocksAndDeterminedForces) {
 }
 
 TEST(BarrierRanges, AgreeWithLinearProgramsInPiles) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     const Packing packing = zoo::random_pile(seed, 4 + static_cast<int>(seed), seed % 3 == 0 ? -1 : 0.4);
     expect_intervals_meet(ranges_by(Method::kLp, packing), ranges_by(Method::kBarrier, packing));

@@ -136,7 +136,7 @@ TEST(Methods, TellTheStatesOfASearchWithoutCanonicalOnes) {
   int number = 0;
   int others = 0;
   std::vector<Packing> packings = simple_scenes();
-  for (const std::uint64_t seed : {1, 2, 3}) packings.push_back(zoo::random_pile(seed, 14, 0.5));
+  for (const std::uint64_t seed : {1, 2}) packings.push_back(zoo::random_pile(seed, 14, 0.5));
   for (const Packing& packing : packings) {
     for (const Method method : {Method::kLp, Method::kPivotingTableau, Method::kPivotingPaper}) {
       SCOPED_TRACE(std::to_string(number++) + " " + to_string(method));
