@@ -274,7 +274,15 @@ std::optional<Defect> find_defect(const Packing& packing) {
     }
   }
   try {
-    static_cast<void>(packing.force_unit());
+    const double unit = packing.force_unit();
+    // Their squares are to be numbers.
+    constexpr double kLeastUnit = 1e-150;
+    constexpr double kMostUnit = 1e150;
+    if (!(unit >= kLeastUnit && unit <= kMostUnit))
+      return scene(
+          fmt::format("the unit of force has to be from {} to {}, but is {}; other units of mass, "
+                      "length or time bring it there",
+                      kLeastUnit, kMostUnit, unit));
   } catch (const InputError& error) {
     return scene(error.what());
   }

@@ -231,6 +231,14 @@ double RebuiltProblem::optimality_gap(const Eigen::VectorXd& coefficients,
     const double gap = (normals * y + gradient).norm();
     if (gap < tolerance::kOptimalityGap) return gap;
   }
+  // Where both sides of a cone are tight, R ≥ 0 is a sum of theirs, with large weights if μ is small.
+  for (std::size_t i = 1; i < tight.size(); ++i) {
+    const bool is_apex = tight[i] < 2 * packing_.contact_count() && tight[i] % 2 == 1 &&
+                         tight[i - 1] == tight[i] - 1 && packing_[ContactId(tight[i] / 2)].mu > 0;
+    if (!is_apex) continue;
+    normals.conservativeResize(Eigen::NoChange, normals.cols() + 1);
+    normals.rightCols<1>() = kernel().row(tight[i] - 1).transpose();
+  }
   return (normals * solve_nonnegative(normals, -gradient) + gradient).norm();
 }
 

@@ -148,6 +148,18 @@ TEST(Packing, ForceUnitIsTheMeanWeight) {
   EXPECT_DOUBLE_EQ(packing.force_unit(), 5);
 }
 
+TEST(Validate, TheUnitOfForceHasASquare) {
+  for (const double unit : {1e-320, 1e-151, 1e151}) {
+    Packing packing = two_disks();
+    packing.named_force_unit = unit;
+    ASSERT_TRUE(find_defect(packing).has_value()) << unit;
+    EXPECT_THAT(find_defect(packing)->reason, testing::HasSubstr("the unit of force has to be from 1e-150"));
+    packing.named_force_unit = 0;
+    for (Disk& disk : packing.disks) disk.mass = unit;
+    EXPECT_TRUE(find_defect(packing).has_value()) << unit;
+  }
+}
+
 TEST(Validate, AFixedDiskNeedsNoMass) {
   Packing packing = two_disks();
   packing.disks[0].fixed = true;

@@ -361,6 +361,22 @@ TEST(VerifyRanges, SaysHowManyObjectivesFailedOrAreImprecise) {
 
 /// The hull at the mean of the stored states; the packing has to be one whose states reach the interior.
 /// Without states in the file, and where edges are closed in all states.
+/// A disk without load between two walls that push the same way: no force at all. Both sides of a narrow cone
+/// are tight, and their normals are nearly opposite.
+TEST(VerifyRanges, AcceptsTheApexOfANarrowCone) {
+  Packing packing = zoo::wedge(0.4, 0.3);
+  packing.gravity.setZero();
+  packing.named_force_unit = 1;
+  for (Contact& contact : packing.contacts) contact.normal = {0, 1};
+  for (Wall& wall : packing.walls) wall.normal = {0, 1};
+  packing.contacts[0].mu = 1e-8;
+  packing.contacts[1].mu = 1e6;
+  const ForceRanges ranges = analyze(packing);
+  EXPECT_EQ(ranges.certified, 8);
+  const Verification found = verify_ranges(packing, ranges);
+  EXPECT_TRUE(found.passed()) << first_message(found);
+}
+
 TEST(VerifyRanges, BlocksAndDeterminedForcesOfTheBarrierMethod) {
   int checked = 0;
   for (const Packing& packing :
