@@ -10,9 +10,10 @@ GlpkProblem::Simplex other(GlpkProblem::Simplex simplex) {
                                                   : GlpkProblem::Simplex::kPrimal;
 }
 
-/// Pivots before old factors are given up: rounding in them can keep GLPK at an optimum for ever. Solves take
-/// about as many pivots as there are dimensions, seldom twice as many.
-int going_on_limit(int dim) { return 20 * dim + 200; }
+/// Pivots before a start is given up: among degenerate vertices GLPK can walk in circles, and rounding in old
+/// factors can keep it at an optimum for ever. Solves take about as many pivots as there are dimensions,
+/// seldom twice as many.
+int warm_limit(int dim) { return 20 * dim + 200; }
 
 }  // namespace
 
@@ -46,7 +47,7 @@ GlpkProblem::Settings FormulationSolver::settings(Rung rung) const {
   result.feasibility = options_.feasibility;
   result.optimality = options_.optimality;
   result.iteration_limit = options_.iteration_limit;
-  if (rung == kGoOn) result.iteration_limit = std::min(result.iteration_limit, going_on_limit(view_.dim()));
+  if (rung < kCold) result.iteration_limit = std::min(result.iteration_limit, warm_limit(view_.dim()));
   result.time_limit = options_.time_limit;
   result.presolve = rung == kPresolved;
   return result;

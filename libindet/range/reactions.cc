@@ -32,8 +32,8 @@ class BlockSearch {
     if (!block.unbounded) return;
     cone_ = truncated_recession_cone(block.view);
     cone_solver_.emplace(*cone_, Formulation::kDual, options);
-    apex_ =
-        purify_to_vertex(*cone_, Eigen::VectorXd::Zero(cone_->dim()), Eigen::VectorXd::Zero(cone_->dim()));
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(cone_->dim());
+    end_ = compute_vertex(*cone_, purify_to_vertex(*cone_, zero, zero));
   }
 
   /// Nothing if the functional (of the block's edges) is the same everywhere in the block. `start`: a vertex.
@@ -46,9 +46,11 @@ class BlockSearch {
     BlockAnswer result;
     if (cone_) {
       const Objective growth = make_objective(*cone_, on_edges);
-      const LpAnswer answer = cone_solver_->maximise(growth, apex_);
+      const LpAnswer answer = cone_solver_->maximise(growth, end_.basis);
       if (answer.status != LpStatus::kOptimal) return result;
-      const Vertex end = compute_vertex(*cone_, answer.basis);
+      // The solver stands there with its factors, and where it stays ours are still good.
+      if (answer.basis != end_.basis) end_ = compute_vertex(*cone_, answer.basis);
+      const Vertex& end = end_;
       if (growth.along_z.dot(end.z) > tolerance::kRay * size) {
         result.outcome =
             end.infeasibility() <= tolerance::kRayResidual ? Outcome::kUnbounded : Outcome::kImprecise;
@@ -70,7 +72,7 @@ class BlockSearch {
   LpSolver solver_;
   std::optional<SlopeView> cone_;
   std::optional<LpSolver> cone_solver_;
-  Basis apex_;
+  Vertex end_;  ///< the last one of the cone, at first its apex
 };
 
 class ReactionFinder {

@@ -155,6 +155,27 @@ TEST(Analyze, PinchedDiskHasDeterminedAndUnboundedForces) {
   }
 }
 
+/// Almost every vertex of it is degenerate, and GLPK can walk in circles among these.
+TEST(Analyze, ALongRowTakesFewPivots) {
+  constexpr int kCount = 40;
+  constexpr double kMu = 0.3;
+  AnalyzeOptions options;
+  options.states.kind = StateChoice::Kind::kNone;
+  options.reactions = false;
+  const ForceRanges ranges = analyze(zoo::row_between_walls(kCount, kMu), options);
+  EXPECT_EQ(ranges.status, PolytopeStatus::kUnbounded);
+  EXPECT_EQ(ranges.dim, kCount + 2);
+  EXPECT_EQ(ranges.failed, 0);
+  EXPECT_LT(ranges.pivots, 40000);
+  constexpr double kDown = (1 + 3 * kMu) / (2 - 2 * kMu);
+  constexpr int kLeft = 2 * kCount - 1, kRight = 2 * kCount;
+  EXPECT_NEAR(ranges.value(kLeft, kMinT), -0.5, 1e-9);
+  EXPECT_NEAR(ranges.value(kLeft, kMaxT), kDown, 1e-9);
+  EXPECT_NEAR(ranges.value(kRight, kMinT), -kDown, 1e-9);
+  EXPECT_NEAR(ranges.value(kRight, kMaxT), 0.5, 1e-9);
+  for (int k = 0; k < kCount; ++k) EXPECT_NEAR(ranges.value(k, kMinR), 0, 1e-9) << k;
+}
+
 TEST(Analyze, IndependentGroovesKeepTheirRanges) {
   const ForceRanges both = analyze(zoo::two_wedges(0.4, 0.3, 0.9, 0.5));
   EXPECT_EQ(both.blocks, 2);

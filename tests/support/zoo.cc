@@ -108,6 +108,16 @@ Packing column_between_walls(int count, double mu) {
   return packing;
 }
 
+Packing row_between_walls(int count, double mu) {
+  Packing packing = empty_scene();
+  const WallId floor = add_wall(packing, {0, 0}, {0, 1});
+  for (int k = 0; k < count; ++k) touch(packing, add_disk(packing, {2.0 * k, 1}), Body::wall(floor), mu);
+  for (int k = 1; k < count; ++k) touch(packing, DiskId(k), Body::disk(DiskId(k - 1)), mu);
+  touch(packing, DiskId(0), Body::wall(add_wall(packing, {-1, 0}, {1, 0})), mu);
+  touch(packing, DiskId(count - 1), Body::wall(add_wall(packing, {2.0 * count - 1, 0}, {-1, 0})), mu);
+  return packing;
+}
+
 Packing pinched_disk(double mu) {
   Packing packing = empty_scene();
   const DiskId disk = add_disk(packing, {0, 0});

@@ -60,6 +60,14 @@ Packing column(int count, double theta, double mu);
 /// `count` disks, each right on top of the one below, and each touching a wall on either side: unbounded.
 Packing column_between_walls(int count, double mu);
 
+/// `count` disks side by side on a floor, the outer ones touching a wall each: unbounded.
+///
+///   contacts: 0 … count − 1: disk k on the floor; then disk k on disk k − 1; then the left and the right
+///   wall The tangential force of a wall is 1/2 at most upwards (the disk lifts off the floor and hangs on
+///   its neighbour, too) and, for count ≥ 6, (1 + 3μ)/(2 − 2μ) downwards (of its neighbour that one lifts
+///   off).
+Packing row_between_walls(int count, double mu);
+
 /// One disk between two vertical walls, no floor: T = ∓1/2 is determined, R ∈ [1/(2μ), ∞). (nullity 1)
 Packing pinched_disk(double mu);
 
