@@ -23,6 +23,8 @@ using Seconds = std::chrono::duration<double>;
 
 /// For work that hears of a signal to end by itself.
 constexpr Seconds kGrace{0.2};
+/// Signals within this time are one.
+constexpr Seconds kOneSignal{0.05};
 /// For a simulation to finish its step, and to write a checkpoint.
 constexpr Seconds kCheckpointGrace{10};
 
@@ -79,6 +81,10 @@ void tell(const std::string& text) {
 [[noreturn]] void watch() {
   while (sem_wait(&arrived) != 0) {
   }
+  // Who signals a process and its group, as timeout does, means one signal.
+  std::this_thread::sleep_for(kOneSignal);
+  while (sem_trywait(&arrived) == 0) {
+  }
   const bool is_urgent = wait_for_signal(kGrace);
   if (!is_urgent && checkpoint_times > 0) {
     tell("stopping; a checkpoint is written at the end of this step (once more Ctrl-C or SIGTERM: none)");
@@ -105,6 +111,7 @@ void catch_signals() {
 int caught_signal() { return signal_number; }
 
 bool has_written() { return wrote; }
+void set_written() { wrote = true; }
 
 int stopped() {
   if (told.exchange(true)) return 128 + signal_number;

@@ -16,6 +16,9 @@ int caught_signal();
 /// Whether a file took its name in this run, checkpoints aside.
 bool has_written();
 
+/// Notes that one did while a checkpoint was due.
+void set_written();
+
 /// Says on standard error that the run was stopped and what it leaves, once; returns the exit status.
 int stopped();
 

@@ -241,8 +241,10 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   listener.checkpoint_seconds = has_checkpoints ? o.checkpoint : 0;
   listener.on_checkpoint = [&](const sim::Checkpoint& checkpoint) {
     write_checkpoint(checkpoint_path, stored(checkpoint, fingerprint, trajectory), about);
-    context.note(
-        fmt::format("checkpoint written to {}; --resume goes on from there", checkpoint_path.string()));
+    const std::string text =
+        fmt::format("checkpoint written to {}; --resume goes on from there", checkpoint_path.string());
+    set_remains(text);
+    context.note(text);
   };
   // How long a start from rest takes, and a step without implicit damping, was not measured.
   const bool is_usual = rigid || (o.preset != "stiff" && o.damping_method != "explicit");
@@ -253,7 +255,6 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   if (has_checkpoints) checkpoint_time.emplace();
   const sim::Simulation result =
       sim::simulate(start.world, {}, options, listener, resume ? &*resume : nullptr);
-  checkpoint_time.reset();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   Packing packing = result.packing;
@@ -266,6 +267,8 @@ int run(const SimulateOptions& o, const CLI::App& command, const Context& contex
   Provenance provenance = about;
   provenance.seconds["simulate"] = seconds;
   write_simulation(o.output, packing, record, trajectory, provenance);
+  set_written();
+  checkpoint_time.reset();
   if (has_checkpoints) std::filesystem::remove(checkpoint_path);
 
   if (context.json) {

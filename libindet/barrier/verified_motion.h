@@ -17,9 +17,8 @@ namespace indet::barrier {
 bool proves_emptiness(const EquilibriumProblem& problem, const BlockStructure& structure,
                       std::span<const double> y);
 
-/// y + ε y₁ with the largest of some ε, from the rounding of Aᵀ y up, of which that holds; y has largest
-/// entry
-/// 1. Nothing if it holds of none.
+/// y + ε y₁ with the largest of some ε, from the rounding of Aᵀ y up, of which that holds; the largest
+/// entry of y is 1. Nothing if it holds of none.
 std::optional<std::vector<double>> proven_motion(const EquilibriumProblem& problem,
                                                  const BlockStructure& structure, std::span<const double> y,
                                                  std::span<const double> y_1);

@@ -31,7 +31,9 @@ class CsvLines {
     while (reader_.next(line)) {
       number_ = reader_.line_number();
       std::string_view more;
-      while (!find_end(line)) {
+      std::size_t read = 0;
+      bool quoted = false;
+      while (!find_end(line, &read, &quoted)) {
         if (!reader_.next(&more)) fail("a double quote is not closed");
         *line = {line->data(), more.data() + more.size()};
       }
@@ -46,10 +48,10 @@ class CsvLines {
 
  private:
   /// Cuts a comment off, which a # within quotes does not begin. False if a quotation mark is open at the
-  /// end.
-  bool find_end(std::string_view* line) const {
-    bool quoted = false;
-    for (std::size_t i = 0; i < line->size(); ++i) {
+  /// end; with more lines it goes on from there.
+  bool find_end(std::string_view* line, std::size_t* read, bool* open) const {
+    bool quoted = *open;
+    for (std::size_t i = *read; i < line->size(); ++i) {
       const char c = (*line)[i];
       if (c == '"') quoted = !quoted;
       if (c == '\r' && !quoted && line->find_first_not_of('\r', i) != std::string_view::npos)
@@ -58,6 +60,8 @@ class CsvLines {
       *line = line->substr(0, i);
       return true;
     }
+    *read = line->size();
+    *open = quoted;
     return !quoted;
   }
 

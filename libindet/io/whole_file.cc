@@ -156,6 +156,7 @@ void WholeFile::write(std::span<const unsigned char> bytes) {
 }
 
 void WholeFile::take_names(std::span<WholeFile> files) {
+  std::vector<const WholeFile*> named;
   {
     const std::scoped_lock lock(unfinished().mutex);
     const bool only_streams = std::all_of(files.begin(), files.end(),
@@ -167,9 +168,10 @@ void WholeFile::take_names(std::span<WholeFile> files) {
       file.check(::rename(file.temporary_.c_str(), file.target_.c_str()) == 0 ? 0 : errno);
       unfinished().names.erase(file.temporary_);
       file.temporary_.clear();
+      named.push_back(&file);
     }
   }
-  for (const WholeFile& file : files) file.check(sync_folder_of(file.target_));
+  for (const WholeFile* file : named) file->check(sync_folder_of(file->target_));
 }
 
 void WholeFile::commit(std::span<const unsigned char> bytes) {

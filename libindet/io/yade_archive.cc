@@ -81,7 +81,7 @@ class Archive {
   int integer(const pugi::xml_node& node, const char* path) const {
     const pugi::xml_node found = at(node, path);
     std::int64_t value = 0;
-    if (!parse_number(std::string_view(excerpt(found.child_value())), &value) ||
+    if (!parse_number(std::string_view(found.child_value()), &value) ||
         value != static_cast<std::int32_t>(value)) {
       fail(line_of(found), fmt::format("{}: \"{}\" is not a whole number of 32 bits", found.name(),
                                        excerpt(found.child_value())));

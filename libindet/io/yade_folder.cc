@@ -135,7 +135,7 @@ class Lines {
 /// "zXY" as bits; "-" for none.
 int parse_blocked(const Fields& fields) {
   int bits = 0;
-  for (const char c : excerpt(fields.text("blocked"))) {
+  for (const char c : fields.text("blocked")) {
     const std::size_t bit = std::string_view("xyzXYZ").find(c);
     if (bit != std::string_view::npos) {
       bits |= 1 << bit;

@@ -63,10 +63,10 @@ void enclose_determined(const Packing& packing, const ForcePolytope& polytope, c
     ValueInterval interval{0, 0, 0, 0, {}, {}};
     if (!objective.empty()) interval = determined.enclose(objective);
     const auto [lower, upper] = value_bounds({interval.lower, interval.upper}, 1, problem);
+    const bool is_proven = determined.is_proof(interval, options.gap);
     for (const int column : {tangential ? kMinT : kMinR, tangential ? kMaxT : kMaxR}) {
-      ++ranges.extrema.determined;
-      ranges.extrema.claim(contact, column) =
-          determined.is_proof(interval, options.gap) ? Outcome::kEnclosed : Outcome::kFailed;
+      ranges.extrema.determined += is_proven ? 1 : 0;
+      ranges.extrema.claim(contact, column) = is_proven ? Outcome::kEnclosed : Outcome::kFailed;
       ranges.enclosures.lower(contact, column) = lower;
       ranges.enclosures.upper(contact, column) = upper;
       ranges.enclosures.sensitivity(contact, column) = interval.sensitivity;

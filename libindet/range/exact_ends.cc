@@ -56,7 +56,8 @@ void settle_exactly(const Packing& packing, const ForcePolytope& polytope, const
   const auto settle = [&](const InternalForces& state, const Bases& bases, const exact::Goal& goal) {
     std::optional<mpq_class> value;
     if (const auto start = basis_of(packing, polytope, state, bases)) {
-      const exact::Optimum found = exact::maximise(*polytope.exact, start, goal, kMostPivots);
+      const int pivots = std::clamp(static_cast<int>((kMostWork - work) / solve), 0, kMostPivots);
+      const exact::Optimum found = exact::maximise(*polytope.exact, start, goal, pivots);
       work += found.pivots * solve;
       if (found.verdict == exact::Verdict::kOptimal) value = found.value;
     }
