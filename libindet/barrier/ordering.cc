@@ -87,6 +87,8 @@ std::vector<int> fill_reducing_order(const std::vector<std::vector<int>>& neighb
       if (number[static_cast<std::size_t>(j)] >= 0)
         pattern.row.push_back(number[static_cast<std::size_t>(j)]);
     }
+    // What a dissection finds depends on the order of the neighbours.
+    std::sort(pattern.row.begin() + pattern.start.back(), pattern.row.end());
     pattern.start.push_back(static_cast<int>(pattern.row.size()));
   }
   // The libraries want an address also where there is no entry.
