@@ -94,16 +94,15 @@ toml::table read_toml(const std::string& file) {
 /// Calls `add` with it.
 template <class Add>
 void add_value(const CLI::Option& option, const std::string& value, const Add& add) {
-  const std::string type = option.get_type_name();
-  const bool takes_numbers = type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
+  const bool is_number = takes_numbers(option);
   const char* const end = value.data() + value.size();
   std::int64_t whole = 0;
   double real = 0;
   if (const auto parsed = std::from_chars(value.data(), end, whole);
-      parsed.ec == std::errc() && parsed.ptr == end && (takes_numbers || fmt::format("{}", whole) == value))
+      parsed.ec == std::errc() && parsed.ptr == end && (is_number || fmt::format("{}", whole) == value))
     return add(whole);
   if (const auto parsed = std::from_chars(value.data(), end, real);
-      parsed.ec == std::errc() && parsed.ptr == end && (takes_numbers || fmt::format("{}", real) == value))
+      parsed.ec == std::errc() && parsed.ptr == end && (is_number || fmt::format("{}", real) == value))
     return add(real);
   add(value);
 }
@@ -184,7 +183,13 @@ void parse_with_configuration(CLI::App& root, const std::vector<std::string>& ar
 }
 
 std::string resolved_configuration(const CLI::App& root, const CLI::App& command) {
-  toml::table table = settings_of(root);
+  std::ostringstream text;
+  text << settings_of(root) << "\n\n" << resolved_configuration(command);
+  return text.str();
+}
+
+std::string resolved_configuration(const CLI::App& command) {
+  toml::table table;
   table.insert(command.get_name(), settings_of(command));
   std::ostringstream text;
   text << table << '\n';

@@ -17,5 +17,7 @@ void parse_with_configuration(CLI::App& root, const std::vector<std::string>& ar
 
 /// Every option of this run as TOML that --config reads: the global ones, then a table for the subcommand.
 std::string resolved_configuration(const CLI::App& root, const CLI::App& command);
+/// The table of the subcommand alone: what the result may depend on.
+std::string resolved_configuration(const CLI::App& command);
 
 }  // namespace indet::app

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/command.h"
+#include "apps/configuration.h"
 #include "apps/import_arguments.h"
 #include "apps/output_files.h"
 #include "apps/say.h"
@@ -172,7 +173,7 @@ int run(const ImportArguments& options, const CLI::App& command, const Context& 
   claim_output(options.output, FileKind::kPacking,
                replacement_rule(order.format->files(order.request), options.overwrite, context));
   ImportedPacking imported = order.format->read(order.request);
-  imported.packing.origin.config = context.resolved_config;
+  imported.packing.origin.config = resolved_configuration(command);
   const StressReport stress = impose_stress(
       imported, order.stress,
       fmt::format("{}: --stress", options.input.empty() ? options.dumps.atoms.string() : options.input));

@@ -57,7 +57,14 @@ std::string check_whole(std::string& text, std::int64_t least) {
   return "";
 }
 
+bool takes_reals(const CLI::Option& option) { return option.get_type_name().starts_with("FLOAT"); }
+
 }  // namespace
+
+bool takes_numbers(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.starts_with("INT") || type.starts_with("UINT") || takes_reals(option);
+}
 
 CLI::Validator not_negative() {
   return number_that([](double value) { return value >= 0; }, " ≥ 0", "NONNEGATIVE");
@@ -69,11 +76,11 @@ CLI::Validator positive() {
 
 void require_numbers(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
-    const std::string type = option->get_type_name();
-    if (type.starts_with("FLOAT")) {
+    if (takes_reals(*option)) {
       option->check(CLI::Validator(check_real, ""));
-    } else if (type.starts_with("INT") || type.starts_with("UINT")) {
-      const std::int64_t least = type.starts_with("UINT") ? 0 : std::numeric_limits<std::int64_t>::min();
+    } else if (takes_numbers(*option)) {
+      const bool has_sign = !option->get_type_name().starts_with("UINT");
+      const std::int64_t least = has_sign ? std::numeric_limits<std::int64_t>::min() : 0;
       option->transform(CLI::Validator([least](std::string& text) { return check_whole(text, least); }, ""));
     }
   }

@@ -8,6 +8,9 @@ namespace indet::app {
 CLI::Validator not_negative();
 CLI::Validator positive();
 
+/// Whether an option takes numbers, whole or not.
+bool takes_numbers(const CLI::Option& option);
+
 /// Every option of a command that takes reals takes finite ones alone, and one that takes whole numbers takes
 /// those of 64 bits in decimal notation (CLI11 would take 010 for eight), of which numbers without a sign are
 /// at most 2⁶³ − 1, as files hold them. Call it when all options were added.

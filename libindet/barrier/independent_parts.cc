@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "libindet/barrier/block_cholesky.h"
 #include "libindet/barrier/vectors.h"
+#include "libindet/base/disjoint_sets.h"
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
 
@@ -55,7 +55,7 @@ class PartSearch {
     }
     for (std::size_t g = 0; g < size_.size(); ++g) {
       if (size_[g] > tolerance::kPartClear) continue;
-      if (size_[g] > tolerance::kPartRounding) return false;
+      if (!(size_[g] <= tolerance::kPartRounding)) return false;  // also where the factor broke down
       state_[g] = State::kDone;
     }
     return true;
@@ -65,14 +65,13 @@ class PartSearch {
   /// ended, −1 if one does not clearly.
   int grow() {
     const std::vector<double> reach = by_group(projected(random_on_growing()));
-    std::vector<bool> grows(parent_.size(), false), is_doubtful(parent_.size(), false),
-        ends(parent_.size(), false);
+    std::vector<bool> grows(elements(), false), is_doubtful(elements(), false), ends(elements(), false);
     for (std::size_t g = 0; g < state_.size(); ++g) {
       if (state_[g] != State::kFree) continue;
       if (reach[g] > tolerance::kPartClear * size_[g]) {
         state_[g] = State::kGrowing;
         grows[region(g)] = true;
-      } else if (reach[g] > tolerance::kPartRounding * size_[g]) {
+      } else if (!(reach[g] <= tolerance::kPartRounding * size_[g])) {
         is_doubtful[region(g)] = true;
       }
     }
@@ -87,20 +86,17 @@ class PartSearch {
 
   /// Joins the groups that are not done with the nodes that they touch.
   void join_regions() {
-    parent_.resize(state_.size() + index(structure_.nodes()));
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    regions_ = DisjointSets(elements());
     for (std::size_t g = 0; g < state_.size(); ++g) {
       if (state_[g] == State::kDone) continue;
       const BlockStructure::Group& group = structure_.groups()[g];
-      for (int t = group.first_touch; t < group.end_touch; ++t) {
-        const std::size_t node = state_.size() + index(structure_.touches()[index(t)].node);
-        parent_[region(node)] = region(g);
-      }
+      for (int t = group.first_touch; t < group.end_touch; ++t)
+        regions_.join(state_.size() + index(structure_.touches()[index(t)].node), g);
     }
   }
   /// Returns whether something grows, in regions where nothing did from their first group on.
   bool start_in_each_region() {
-    std::vector<bool> grows(parent_.size(), false);
+    std::vector<bool> grows(elements(), false);
     for (std::size_t g = 0; g < state_.size(); ++g) {
       if (state_[g] == State::kGrowing) grows[region(g)] = true;
     }
@@ -112,10 +108,8 @@ class PartSearch {
     return std::find(grows.begin(), grows.end(), true) != grows.end();
   }
 
-  std::size_t region(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
+  std::size_t region(std::size_t group) { return regions_.root(group); }
+  std::size_t elements() const { return state_.size() + index(structure_.nodes()); }
 
   std::vector<double> random_on_growing() {
     std::vector<double> r(x_.size(), 0);
@@ -155,9 +149,9 @@ class PartSearch {
   std::span<const double> x_;
   BlockCholesky cholesky_;  ///< of A X² Aᵀ
   Random random_{1};
-  std::vector<State> state_;         ///< of each group
-  std::vector<double> size_;         ///< of each group: its rows of P, but for chance
-  std::vector<std::size_t> parent_;  ///< of each group, then of each node: towards the root of its region
+  std::vector<State> state_;  ///< of each group
+  std::vector<double> size_;  ///< of each group: its rows of P, but for chance
+  DisjointSets regions_{0};   ///< of groups, then of nodes
 };
 
 }  // namespace

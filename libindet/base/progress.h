@@ -18,4 +18,7 @@ struct Progress {
 /// to stop; it then throws Interrupted. An empty function means that nobody is interested.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
+/// The same within one stage: how much of how much work is done.
+using StageProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
 }  // namespace indet

@@ -322,6 +322,10 @@ inline constexpr double kRankableDeviation = 1e-6;
 inline constexpr double kHullRounding = 1e-12;
 inline constexpr double kHullClear = 1e-9;
 
+/// The same where random vectors are projected on the hull, in other coordinates: lengths above this are not
+/// rounding.
+inline constexpr double kProjectedClear = 1e-6;
+
 /// A force that moves at most this far along every unit direction within F is determined.
 inline constexpr double kDeterminedForce = 1e-9;
 

@@ -23,7 +23,6 @@ BodyMotion on_bodies(const Packing& packing, const ContactProblem& problem, std:
   const bool walls_move = std::any_of(packing.walls.begin(), packing.walls.end(),
                                       [](const Wall& wall) { return wall.is_loaded(); });
   motion.walls.setZero(walls_move ? packing.wall_count() : 0, 2);
-  motion.cell.setZero(0, 2);
   for (int w = 0; w < motion.walls.rows(); ++w) {
     for (int k = 0; k < 2; ++k) motion.walls(w, k) = velocity(Body::wall(WallId(w)), k);
   }

@@ -12,7 +12,8 @@ namespace indet::exact {
 /// normal and tangent [W, 2] or none, the rate of compression of the cell times its length [2, 2] or none,
 /// and the multipliers of force_bounds() [B].
 struct BodyMotion {
-  Eigen::MatrixXd disks, walls, cell;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> disks;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> walls, cell;
   Eigen::VectorXd bounds;
 };
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "libindet/base/disjoint_sets.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/packing/doubled_sum.h"
@@ -21,24 +21,20 @@ namespace {
 class Groups {
  public:
   explicit Groups(const Packing& packing)
-      : disks_(packing.disk_count()), parent_(static_cast<std::size_t>(disks_ + packing.wall_count())) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+      : disks_(packing.disk_count()), sets_(disks_ + packing.wall_count()) {
     for (const Contact& contact : packing.contacts) {
       if (packing.has_equations(contact.a) && packing.has_equations(contact.b))
-        parent_[static_cast<std::size_t>(of(contact.a.value()))] = of(number(contact.b));
+        sets_.join(contact.a.value(), number(contact.b));
     }
   }
-  int of(int body) {
-    int& up = parent_[static_cast<std::size_t>(body)];
-    return up == body ? body : up = of(up);
-  }
+  int of(int body) { return static_cast<int>(sets_.root(body)); }
   int number(Body body) const {
     return body.is_wall() ? disks_ + body.wall_id().value() : body.disk_id().value();
   }
 
  private:
   int disks_;
-  std::vector<int> parent_;
+  DisjointSets sets_;
 };
 
 /// The directions of force that nothing fixed takes, orthonormal: none, one or both.

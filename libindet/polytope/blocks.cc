@@ -3,30 +3,14 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numeric>
 
+#include "libindet/base/disjoint_sets.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/dense/qr.h"
 #include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
 namespace {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(int size) : parent_(static_cast<std::size_t>(size)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
-    return i;
-  }
-  void join(int i, int j) { parent(find(i)) = find(j); }
-
- private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<int> parent_;
-};
 
 /// Columns of the edge matrix of one block, with as many independent rows as it has.
 void describe_sparsely(const EquilibriumProblem& problem, PolytopeBlock& block) {
@@ -79,12 +63,12 @@ std::vector<PolytopeBlock> split_into_blocks(const EquilibriumProblem& problem, 
       sets.join(d + k, d + k - 1);
   }
 
-  std::map<int, PolytopeBlock> by_root;
-  std::map<int, std::vector<int>> coordinates;
+  std::map<std::size_t, PolytopeBlock> by_root;
+  std::map<std::size_t, std::vector<int>> coordinates;
   for (int k = 0; k < count; ++k) {
-    if (moves[static_cast<std::size_t>(k)]) by_root[sets.find(d + k)].edges.push_back(k);
+    if (moves[static_cast<std::size_t>(k)]) by_root[sets.root(d + k)].edges.push_back(k);
   }
-  for (int j = 0; j < d; ++j) coordinates[sets.find(j)].push_back(j);
+  for (int j = 0; j < d; ++j) coordinates[sets.root(j)].push_back(j);
 
   std::vector<PolytopeBlock> blocks;
   for (auto& [root, block] : by_root) {

@@ -30,7 +30,6 @@ void set_motion(const Packing& packing, const exact::ContactProblem& exact, std:
   const exact::BodyMotion motion = exact::on_bodies(packing, exact, rows);
   polytope.motion = motion.disks;
   polytope.wall_motion = motion.walls;
-  polytope.cell_motion.resize(motion.cell.rows(), 2);
   polytope.cell_motion = motion.cell;
   polytope.bound_multipliers = motion.bounds;
 }

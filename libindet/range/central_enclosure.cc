@@ -23,7 +23,7 @@ namespace {
 
 class CentralEncloser {
  public:
-  CentralEncloser(const ForcePolytope& polytope, const Extrema& extrema, const EnclosureProgress& progress)
+  CentralEncloser(const ForcePolytope& polytope, const Extrema& extrema, const StageProgress& progress)
       : polytope_(polytope),
         problem_(polytope.problem),
         central_(*polytope.central),
@@ -175,7 +175,7 @@ class CentralEncloser {
   const EquilibriumProblem& problem_;
   const CentralPolytope& central_;
   const Extrema& extrema_;
-  const EnclosureProgress& progress_;
+  const StageProgress& progress_;
   std::int64_t done_ = 0;   ///< proofs that have been read
   std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
   Enclosures enclosures_;
@@ -187,7 +187,7 @@ class CentralEncloser {
 }  // namespace
 
 Enclosures enclose_by_centre(const ForcePolytope& polytope, const Extrema& extrema,
-                             std::span<const SumAtOptimum> sums, const EnclosureProgress& progress) {
+                             std::span<const SumAtOptimum> sums, const StageProgress& progress) {
   return CentralEncloser(polytope, extrema, progress).run(sums);
 }
 

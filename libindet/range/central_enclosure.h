@@ -13,6 +13,6 @@ namespace indet {
 /// for which Aᵀ y is nearest to c − h̃, with the reduced costs h̃ ≥ 0 of its basis on the active edges and 0
 /// elsewhere, and its state is repaired. Precondition: polytope.central.
 Enclosures enclose_by_centre(const ForcePolytope& polytope, const Extrema& extrema,
-                             std::span<const SumAtOptimum> sums, const EnclosureProgress& progress);
+                             std::span<const SumAtOptimum> sums, const StageProgress& progress);
 
 }  // namespace indet

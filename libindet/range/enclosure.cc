@@ -30,7 +30,7 @@ struct StateBound {
 
 class Encloser {
  public:
-  Encloser(const ForcePolytope& polytope, const Extrema& extrema, const EnclosureProgress& progress)
+  Encloser(const ForcePolytope& polytope, const Extrema& extrema, const StageProgress& progress)
       : polytope_(polytope),
         problem_(polytope.problem),
         extrema_(extrema),
@@ -339,7 +339,7 @@ class Encloser {
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
   const Extrema& extrema_;
-  const EnclosureProgress& progress_;
+  const StageProgress& progress_;
   Enclosures enclosures_;
   std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
   EquationBounds equations_;
@@ -359,7 +359,7 @@ class Encloser {
 }  // namespace
 
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
-                          std::span<const SumAtOptimum> sums, const EnclosureProgress& progress) {
+                          std::span<const SumAtOptimum> sums, const StageProgress& progress) {
   if (polytope.central) return enclose_by_centre(polytope, extrema, sums, progress);
   if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema, progress).run(sums);
   Enclosures none;

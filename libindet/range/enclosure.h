@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "libindet/base/progress.h"
 #include "libindet/lp/feasible_set.h"
 #include "libindet/packing/force.h"
 #include "libindet/polytope/force_polytope.h"
@@ -40,8 +39,6 @@ struct Enclosures {
   std::vector<SumBounds> sums;  ///< of the sums that were asked for
 };
 
-using EnclosureProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
-
 /// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
 ///
 /// The exact problem is A u = b, x(u) ≥ 0, with the doubles of the packing taken as they are; A and b in
@@ -74,6 +71,6 @@ using EnclosureProgress = std::function<bool(std::int64_t done, std::int64_t tot
 /// `sums`: further functionals, of several contacts at once, to be enclosed likewise. `progress` is told how
 /// many values of how many are enclosed; false stops it (Interrupted).
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
-                          std::span<const SumAtOptimum> sums = {}, const EnclosureProgress& progress = {});
+                          std::span<const SumAtOptimum> sums = {}, const StageProgress& progress = {});
 
 }  // namespace indet

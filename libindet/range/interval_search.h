@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "libindet/barrier/lock_step.h"
 #include "libindet/base/constants.h"
+#include "libindet/base/progress.h"
 #include "libindet/equilibrium/equilibrium_problem.h"
 #include "libindet/polytope/central_polytope.h"
 
@@ -17,7 +17,7 @@ struct IntervalOptions {
   double gap = 1e-6;
   int threads = 1;  ///< the results do not depend on it
   /// Called on the calling thread now and then; false stops the search (Interrupted).
-  std::function<bool(std::int64_t settled, std::int64_t total)> progress;
+  StageProgress progress;
 };
 
 /// What is known of a least value, in the unit of the problem.

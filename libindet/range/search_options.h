@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 
+#include "libindet/base/progress.h"
 #include "libindet/lp/lp_solver.h"
 #include "libindet/lp/vertex.h"
 #include "libindet/pivoting/pivot_rule.h"
@@ -32,7 +33,7 @@ struct SearchOptions {
   /// thread; of those passed only the bases are held. Not with canonical_states or solver_states.
   VertexSink sink;
   /// Called now and then with how much of how much work is done; false stops the search (Interrupted).
-  std::function<bool(std::int64_t done, std::int64_t total)> progress;
+  StageProgress progress;
 };
 
 }  // namespace indet

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/base/disjoint_sets.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/dense/lu.h"
 #include "libindet/dense/qr.h"
-#include "libindet/verify/groups.h"
 
 namespace indet {
 namespace {
@@ -56,7 +56,7 @@ std::optional<int> AffineHull::blocks() const {
       Eigen::PartialPivLU<Eigen::MatrixXd>(chosen.transpose()).solve(slopes_.transpose());
 
   // Half-plane h is element h; the chosen ones stand for the coordinates.
-  Groups groups(slopes_.rows());
+  DisjointSets groups(slopes_.rows());
   std::vector<bool> moves(static_cast<std::size_t>(slopes_.rows()), false);
   for (Eigen::Index h = 0; h < slopes_.rows(); ++h) {
     for (Eigen::Index j = 0; j < d; ++j) {

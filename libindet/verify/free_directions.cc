@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "libindet/base/disjoint_sets.h"
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/verify/groups.h"
 
 namespace indet {
 namespace {
@@ -45,14 +45,11 @@ std::vector<Vector2> directions_of(const Packing& packing, const ForceRanges& ra
   return {Vector2(1, mu) / size, Vector2(1, -mu) / size};
 }
 
-/// What other coordinates could make of a tolerance.
-constexpr double kOtherCoordinates = 1e3;
-
 enum class Clarity { kRounding, kDoubtful, kClear };
 Clarity clarity(double value) {
-  return value <= tolerance::kHullRounding                   ? Clarity::kRounding
-         : value > kOtherCoordinates * tolerance::kHullClear ? Clarity::kClear
-                                                             : Clarity::kDoubtful;
+  return value <= tolerance::kHullRounding    ? Clarity::kRounding
+         : value > tolerance::kProjectedClear ? Clarity::kClear
+                                              : Clarity::kDoubtful;
 }
 
 /// Sets of contacts that grow, one in each region: contacts that are left, joined by rows that they enter.
@@ -68,7 +65,7 @@ class Growth {
   /// Makes the regions, and begins where nothing grows. Returns whether something does.
   bool begin() {
     const std::ptrdiff_t contacts = std::ssize(state_);
-    regions_ = Groups(contacts + rows_.rows());
+    regions_ = DisjointSets(contacts + rows_.rows());
     for (std::size_t j = 0; j < contact_.size(); ++j) {
       if (at(contact_[j]) == State::kDone) continue;
       for (Eigen::SparseMatrix<double>::InnerIterator it(rows_, static_cast<Eigen::Index>(j)); it; ++it)
@@ -120,7 +117,7 @@ class Growth {
 
   const Eigen::SparseMatrix<double>& rows_;
   const std::vector<int>& contact_;
-  Groups regions_;  ///< contacts, then rows
+  DisjointSets regions_;  ///< contacts, then rows
   std::vector<State> state_;
 };
 

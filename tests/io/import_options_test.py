@@ -56,6 +56,16 @@ class Levers(ImportTest):
         self.assertIn(f"lever arms          {BOTH} (", done.stdout)
         self.assertRegex(done.stdout, r"pair=radius,wall=radius +1\.3\de-03 mg r")
 
+    def test_threads_change_nothing_but_provenance(self):
+        digests = []
+        for threads in ("1", "2"):
+            self.run_indet("--threads", threads, "import", "--format", "yade", pathlib.Path(DATA, "yade/soft"),
+                           "--gravity", "0,-9.81", "-o", "p.h5")
+            with h5py.File(self.folder / "p.h5") as file:
+                self.assertIn(f"threads = {threads}\n", file["provenance"].attrs["config"])
+                digests.append((file.attrs["content_sha256"], file.attrs["text_sha256"]))
+        self.assertEqual(digests[0], digests[1])
+
     def test_what_the_user_says_is_taken(self):
         shown = self.read("lammps-granular", "--format", "lammps", "--friction", "0.3", "--lever", "wall=radius")
         self.assertEqual(set(self.tried(shown)), {NONE, PAIRS})

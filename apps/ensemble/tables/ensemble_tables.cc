@@ -22,7 +22,7 @@ EnsembleTables::EnsembleTables()
 std::vector<sim::Protocol> protocols_of(const FlatTable& runs) {
   std::vector<sim::Protocol> protocols;
   for (std::size_t run = 0; run < runs.rows(); ++run) {
-    const auto protocol = sim::protocol_from(excerpt(runs.text("protocol", run)));
+    const auto protocol = sim::protocol_from(runs.text("protocol", run));
     if (!protocol) {
       throw InputError(
           fmt::format("/table/runs/protocol: \"{}\" is no protocol", excerpt(runs.text("protocol", run))));
