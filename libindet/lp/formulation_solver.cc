@@ -13,7 +13,7 @@ GlpkProblem::Simplex other(GlpkProblem::Simplex simplex) {
 /// Pivots before a start is given up: among degenerate vertices GLPK can walk in circles, and rounding in old
 /// factors can keep it at an optimum for ever. Solves take about as many pivots as there are dimensions,
 /// seldom twice as many.
-int warm_limit(int dim) { return 20 * dim + 200; }
+int warm_limit(int dim) { return 4 * dim + 200; }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "libindet/base/disjoint_sets.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/dense/qr.h"
+#include "libindet/lp/independent_equations.h"
 #include "libindet/nullspace/sparse_qr.h"
 
 namespace indet {
@@ -23,19 +24,8 @@ void describe_sparsely(const EquilibriumProblem& problem, PolytopeBlock& block) 
   }
   columns.setFromTriplets(triplets.begin(), triplets.end());
   const std::vector<int> rows = SparseQr(columns.transpose(), tolerance::kRankReject).independent_columns();
-  std::vector<int> number(static_cast<std::size_t>(problem.equations()), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    number[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
-  std::vector<Eigen::Triplet<double>> kept;
-  for (const auto& entry : triplets) {
-    const int row = number[static_cast<std::size_t>(entry.row())];
-    if (row >= 0) kept.emplace_back(row, entry.col(), entry.value());
-  }
-  const auto set = std::make_shared<FeasibleSet>();
-  set->equations.resize(static_cast<Eigen::Index>(rows.size()), columns.cols());
-  set->equations.setFromTriplets(kept.begin(), kept.end());
-  set->right_hand_side = set->equations * block.view.offset;
-  block.view.set = set;
+  block.view.set =
+      std::make_shared<const FeasibleSet>(independent_equations(columns, rows, block.view.offset));
 }
 
 }  // namespace

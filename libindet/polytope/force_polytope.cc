@@ -5,14 +5,17 @@
 #include <optional>
 #include <utility>
 
+#include "libindet/barrier/feasibility.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
+#include "libindet/lp/independent_equations.h"
 #include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
 #include "libindet/polytope/blocks.h"
 #include "libindet/polytope/interior.h"
 #include "libindet/polytope/motion_rows.h"
+#include "libindet/polytope/recession_cone.h"
 
 namespace indet {
 namespace {
@@ -21,6 +24,10 @@ SlopeView slope_view(const EquilibriumProblem& problem, const NullSpace& null_sp
   SlopeView view;
   view.slope = problem.to_edges * null_space.basis;
   view.offset = problem.to_edges * null_space.particular;
+  if (null_space.rank > 0) {
+    view.set = std::make_shared<const FeasibleSet>(
+        independent_equations(problem.edge_matrix, null_space.independent_rows, view.offset));
+  }
   return view;
 }
 
@@ -114,7 +121,7 @@ Vertex find_lightest_vertex(const EquilibriumProblem& problem, const InteriorSet
   std::vector<std::pair<int, double>> normal_forces;
   for (int k = 0; k < view.inequalities(); ++k)
     normal_forces.emplace_back(k, -problem.edges[static_cast<std::size_t>(k)].R);
-  LpSolver solver(view, Formulation::kDual, options);
+  LpSolver solver(view, choose_formulation_of_one(view), options);
   const Objective lightness = make_objective(view, normal_forces);
   const LpAnswer answer = solver.maximise(lightness, purify_to_vertex(view, interior.z, lightness.along_z));
   polytope.pivots += answer.pivots;
@@ -122,6 +129,23 @@ Vertex find_lightest_vertex(const EquilibriumProblem& problem, const InteriorSet
   if (answer.status != LpStatus::kOptimal)
     throw LibraryError("no vertex of the force polytope could be found");
   return compute_vertex(view, answer.basis);
+}
+
+/// A ray of maximal support, as the barrier method finds it; the one that is known where it does not.
+Eigen::VectorXd widest_ray(const ForcePolytope& polytope) {
+  const barrier::BlockStructure structure(polytope.problem, polytope.null_space->independent_rows);
+  barrier::BlockCholesky cholesky(structure);
+  const barrier::Boundedness found = barrier::find_boundedness(structure, cholesky);
+  if (!found.decided || found.bounded) return polytope.ray;
+  return Eigen::Map<const Eigen::VectorXd>(found.ray.data(), std::ssize(found.ray));
+}
+
+void find_recession_cones(const LpOptions& options, ForcePolytope& polytope) {
+  const Eigen::VectorXd widest = widest_ray(polytope);
+  for (PolytopeBlock& block : polytope.blocks) {
+    if (polytope.blocks.size() == 1 || find_recession_ray(block.view, options).x.size() > 0)
+      block.recession = find_recession_cone(block.view, widest(block.edges), options);
+  }
 }
 
 }  // namespace
@@ -169,11 +193,7 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   const Vertex lightest = find_lightest_vertex(polytope.problem, *interior, options, polytope);
   polytope.lightest = lightest.x;
   polytope.blocks = split_into_blocks(polytope.problem, view, lightest);
-  const bool is_unbounded = polytope.status == PolytopeStatus::kUnbounded;
-  for (PolytopeBlock& block : polytope.blocks) {
-    block.unbounded =
-        is_unbounded && (polytope.blocks.size() == 1 || find_recession_ray(block.view, options).x.size() > 0);
-  }
+  if (polytope.status == PolytopeStatus::kUnbounded) find_recession_cones(options, polytope);
   return polytope;
 }
 

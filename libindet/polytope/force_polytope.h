@@ -16,6 +16,7 @@
 namespace indet {
 
 struct CentralPolytope;
+struct RecessionCone;
 struct UnboundedPolytope;
 
 /// What the polytope of admissible contact states F [19] of a packing is.
@@ -33,7 +34,7 @@ struct PolytopeBlock {
   SlopeView view;          ///< of `set`, which is full-dimensional
   std::vector<int> edges;  ///< local index of x → index into ForcePolytope::problem.edges; ascending
   Basis lightest;          ///< the vertex of smallest total normal force
-  bool unbounded = false;
+  std::shared_ptr<const RecessionCone> recession;  ///< null where the block is bounded
 
   const FeasibleSet& set() const { return *view.set; }
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
@@ -15,11 +17,46 @@ namespace {
 /// that are much lighter than the mean are still seen.
 constexpr double kMagnification = 1e4;
 
+/// Dimensions from which the sparse equations are the faster form of a single linear program.
+constexpr int kFewestForEquations = 100;
+
+/// `set` with one unknown more, ≥ 0, which enters its equations by `column`.
+FeasibleSet with_column(const FeasibleSet& set, const Eigen::VectorXd& column) {
+  FeasibleSet result;
+  result.equations.resize(set.equations.rows(), set.equations.cols() + 1);
+  result.equations.leftCols(set.equations.cols()) = set.equations;
+  result.equations.rightCols(1) = column.sparseView();
+  return result;
+}
+
+/// x' = m x − t and s = m − t: A x' − (A 1) s = m (b − A 1).
+std::shared_ptr<const FeasibleSet> lifted_set(const FeasibleSet& set) {
+  const Eigen::VectorXd sums = set.equations * Eigen::VectorXd::Ones(set.equations.cols());
+  FeasibleSet lifted = with_column(set, -sums);
+  lifted.right_hand_side = kMagnification * (set.right_hand_side - sums);
+  return std::make_shared<const FeasibleSet>(std::move(lifted));
+}
+
+/// A x = 0, Σx + s = 1.
+std::shared_ptr<const FeasibleSet> cone_set(const FeasibleSet& set) {
+  const Eigen::Index rows = set.equations.rows();
+  const Eigen::Index columns = set.equations.cols();
+  Eigen::SparseMatrix<double, Eigen::RowMajor> equations(rows + 1, columns + 1);
+  equations.topRows(rows) = with_column(set, Eigen::VectorXd::Zero(rows)).equations;
+  equations.bottomRows(1) = Eigen::RowVectorXd::Ones(columns + 1).sparseView();
+  FeasibleSet cone{equations, Eigen::VectorXd::Unit(rows + 1, rows)};
+  return std::make_shared<const FeasibleSet>(std::move(cone));
+}
+
 }  // namespace
+
+Formulation choose_formulation_of_one(const SlopeView& view) {
+  return view.set && view.dim() >= kFewestForEquations ? Formulation::kEdge : Formulation::kDual;
+}
 
 LpAnswer maximise_robustly(const SlopeView& view, const Objective& objective, const Basis& start,
                            const LpOptions& options) {
-  LpAnswer answer = LpSolver(view, Formulation::kDual, options).maximise(objective, start);
+  LpAnswer answer = LpSolver(view, choose_formulation_of_one(view), options).maximise(objective, start);
   if (answer.status == LpStatus::kOptimal) return answer;
   const std::int64_t pivots = answer.pivots;
   answer = LpSolver(view, Formulation::kNullSpace, options).maximise(objective, start);
@@ -44,8 +81,8 @@ InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& option
   lifted.slope.col(d).setConstant(-1);
   lifted.offset.resize(count + 1);
   lifted.offset << kMagnification * view.offset, kMagnification;
-  Objective height;
-  height.along_z = Eigen::VectorXd::Unit(d + 1, d);
+  if (view.set) lifted.set = lifted_set(*view.set);
+  const Objective height{Eigen::VectorXd::Unit(d + 1, d), {{count, -1.0}}};
 
   Eigen::VectorXd origin = Eigen::VectorXd::Zero(d + 1);
   origin[d] = lifted.offset.minCoeff();
@@ -75,6 +112,7 @@ SlopeView truncated_recession_cone(const SlopeView& view) {
   cone.slope.resize(count + 1, view.dim());
   cone.slope << view.slope, -view.slope.colwise().sum();
   cone.offset = Eigen::VectorXd::Unit(count + 1, count);
+  if (view.set) cone.set = cone_set(*view.set);
   return cone;
 }
 
@@ -82,6 +120,7 @@ RecessionRay find_recession_ray(const SlopeView& view, const LpOptions& options)
   const SlopeView cone = truncated_recession_cone(view);
   Objective total;
   total.along_z = view.slope.colwise().sum().transpose();
+  for (int k = 0; k < view.inequalities(); ++k) total.on_edges.emplace_back(k, 1.0);
   const Basis start = purify_to_vertex(cone, Eigen::VectorXd::Zero(view.dim()), total.along_z);
   const LpAnswer answer = maximise_robustly(cone, total, start, options);
   if (answer.status != LpStatus::kOptimal)

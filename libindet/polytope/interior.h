@@ -9,7 +9,11 @@
 
 namespace indet {
 
-/// Maximises by the dual formulation, and where that fails by the explicit one.
+/// The formulation for one linear program, or few: the dual one, and the sparse equations where they are
+/// given and the dimension is large.
+Formulation choose_formulation_of_one(const SlopeView& view);
+
+/// Maximises by that formulation, and where that fails by the explicit one.
 LpAnswer maximise_robustly(const SlopeView& view, const Objective& objective, const Basis& start,
                            const LpOptions& options);
 
@@ -28,7 +32,7 @@ struct InteriorPoint {
 InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& options);
 
 /// The recession cone of a set, cut off: {z : slope · z ≥ 0, Σ slope · z ≤ 1}. Its inequalities are those of
-/// the set, then the cut.
+/// the set, then the cut. It has a FeasibleSet where `view` has one.
 SlopeView truncated_recession_cone(const SlopeView& view);
 
 /// A direction in which a set is unbounded.

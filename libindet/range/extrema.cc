@@ -14,6 +14,7 @@
 #include "libindet/base/tolerances.h"
 #include "libindet/lp/purification.h"
 #include "libindet/polytope/interior.h"
+#include "libindet/polytope/recession_cone.h"
 #include "libindet/range/paper_start.h"
 #include "libindet/range/state_table.h"
 
@@ -134,21 +135,33 @@ class ExtremaFinder {
 
   /// Switches off what is unbounded: whatever grows along some direction of the block's recession cone.
   void exclude_unbounded(std::size_t number, const Eigen::VectorXd& weight, BlockComponents& block) {
-    const SlopeView& view = polytope_.blocks[number].view;
-    const SlopeView cone = truncated_recession_cone(view);
+    const PolytopeBlock& whole = polytope_.blocks[number];
+    const RecessionCone& recession = *whole.recession;
+    const SlopeView& cone = recession.truncated;
     SearchOptions options = options_;
-    options.formulation = Formulation::kDual;
+    options.formulation = choose_formulation_of_one(cone);
     options.canonical_states = options.solver_states = false;
     options.sink = {};
     if (options.method == Method::kPivotingPaper) options.method = Method::kLp;  // the paper met no such case
     if (options_.progress) {  // these searches may be stopped too, but settle no range yet
       options.progress = [this](std::int64_t, std::int64_t) { return options_.progress(settled_, total_); };
     }
+    std::vector<Component> components;
+    for (const Component& component : block.components) {
+      Component& on_cone = components.emplace_back(component);
+      on_cone.on_edges = recession.restricted(component.on_edges);
+      const auto has_sign = [&](double sign) {
+        return std::any_of(on_cone.on_edges.begin(), on_cone.on_edges.end(),
+                           [&](const auto& entry) { return sign * entry.second > 0; });
+      };
+      on_cone.minimise = on_cone.minimise && has_sign(-1);
+      on_cone.maximise = on_cone.maximise && has_sign(1);
+    }
     const Basis apex =
         purify_to_vertex(cone, Eigen::VectorXd::Zero(cone.dim()), Eigen::VectorXd::Zero(cone.dim()));
-    Eigen::VectorXd cone_weight(weight.size() + 1);
-    cone_weight << weight, 1;
-    const SearchResult growth = search_extrema(cone, block.components, cone_weight, apex, options);
+    Eigen::VectorXd cone_weight(cone.inequalities());
+    cone_weight << weight(recession.edges), 1;
+    const SearchResult growth = search_extrema(cone, components, cone_weight, apex, options);
     extrema_.solves += growth.solves;
     extrema_.pivots += growth.pivots;
     for (std::size_t c = 0; c < block.components.size(); ++c) {
@@ -162,7 +175,7 @@ class ExtremaFinder {
         const Vertex& end = growth.vertices[static_cast<std::size_t>(extremum.vertex)];
         const bool is_ray = end.infeasibility() <= tolerance::kRayResidual;
         extrema_.claim(row, column) = is_ray ? Outcome::kUnbounded : Outcome::kImprecise;
-        extrema_.ray(row, column) = states_.add_ray(number, end.x.head(view.inequalities()));
+        extrema_.ray(row, column) = states_.add_ray(number, recession.ray(end.x, whole.view.inequalities()));
         extrema_.ray_residual(row, column) = end.infeasibility();
         extrema_.dual_residual(row, column) = extremum.dual_residual;
       };
@@ -195,7 +208,7 @@ class ExtremaFinder {
   void search_block(std::size_t number, BlockComponents& wanted) {
     const PolytopeBlock& block = polytope_.blocks[number];
     const Eigen::VectorXd weight = weight_of(block);
-    if (block.unbounded) exclude_unbounded(number, weight, wanted);
+    if (block.recession) exclude_unbounded(number, weight, wanted);
     const Basis start = options_.method == Method::kPivotingPaper
                             ? first_extremal_point(simulated_, polytope_, block, options_.lp, extrema_.paper)
                             : block.lightest;

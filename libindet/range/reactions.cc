@@ -12,6 +12,7 @@
 #include "libindet/lp/purification.h"
 #include "libindet/lp/vertex.h"
 #include "libindet/polytope/interior.h"
+#include "libindet/polytope/recession_cone.h"
 
 namespace indet {
 namespace {
@@ -29,11 +30,11 @@ class BlockSearch {
  public:
   BlockSearch(const PolytopeBlock& block, Formulation formulation, const LpOptions& options)
       : block_(block), solver_(block.view, formulation, options) {
-    if (!block.unbounded) return;
-    cone_ = truncated_recession_cone(block.view);
-    cone_solver_.emplace(*cone_, Formulation::kDual, options);
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(cone_->dim());
-    end_ = compute_vertex(*cone_, purify_to_vertex(*cone_, zero, zero));
+    if (!block.recession) return;
+    const SlopeView& cone = block.recession->truncated;
+    cone_solver_.emplace(cone, choose_formulation_of_one(cone), options);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(cone.dim());
+    end_ = compute_vertex(cone, purify_to_vertex(cone, zero, zero));
   }
 
   /// Nothing if the functional (of the block's edges) is the same everywhere in the block. `start`: a vertex.
@@ -44,17 +45,19 @@ class BlockSearch {
     for (const auto& [edge, coefficient] : on_edges) size = std::max(size, std::abs(coefficient));
     if (objective.along_z.norm() <= tolerance::kConstantComponent * size) return {};
     BlockAnswer result;
-    if (cone_) {
-      const Objective growth = make_objective(*cone_, on_edges);
+    if (cone_solver_) {
+      const RecessionCone& recession = *block_.recession;
+      const SlopeView& cone = recession.truncated;
+      const Objective growth = make_objective(cone, recession.restricted(on_edges));
       const LpAnswer answer = cone_solver_->maximise(growth, end_.basis);
       if (answer.status != LpStatus::kOptimal) return result;
       // The solver stands there with its factors, and where it stays ours are still good.
-      if (answer.basis != end_.basis) end_ = compute_vertex(*cone_, answer.basis);
+      if (answer.basis != end_.basis) end_ = compute_vertex(cone, answer.basis);
       const Vertex& end = end_;
       if (growth.along_z.dot(end.z) > tolerance::kRay * size) {
         result.outcome =
             end.infeasibility() <= tolerance::kRayResidual ? Outcome::kUnbounded : Outcome::kImprecise;
-        result.ray = end.x.head(block_.view.inequalities());
+        result.ray = recession.ray(end.x, block_.view.inequalities());
         return result;
       }
     }
@@ -70,9 +73,8 @@ class BlockSearch {
  private:
   const PolytopeBlock& block_;
   LpSolver solver_;
-  std::optional<SlopeView> cone_;
-  std::optional<LpSolver> cone_solver_;
-  Vertex end_;  ///< the last one of the cone, at first its apex
+  std::optional<LpSolver> cone_solver_;  ///< of the recession cone
+  Vertex end_;                           ///< the last one of the cone, at first its apex
 };
 
 class ReactionFinder {
