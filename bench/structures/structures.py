@@ -5,7 +5,8 @@
 
 row:N      disks side by side on a floor, between two walls
 column:N   disks on each other
-ring:N     small disks around a large one (radius 200 : 1), a wall behind each
+ring:N     small disks around a large one (radius 200 : 1), a wall behind each: a planetary gear, which can turn
+           but for the last digits of the normals, so that every value is marked
 lattice:N  a triangular pile of N rows between two walls
 """
 import argparse
@@ -64,7 +65,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default="build/release")
     parser.add_argument("--limit", type=float, default=60, help="seconds")
     parser.add_argument("--options", default="", help="of analyze, in one string")
-    parser.add_argument("scenes", nargs="*", default=["row:40", "row:100", "column:500", "column:1500", "ring:100", "ring:301", "lattice:8"])
+    parser.add_argument("scenes", nargs="*", default=["row:40", "row:100", "row:300", "column:500", "column:1500", "ring:100", "ring:301", "lattice:8", "lattice:16"])
     args = parser.parse_args()
     program = args.build.resolve() / "indet"
     print("| scene | status | dim | method | pivots | imprecise | seconds by stage |\n|---|---|---|---|---|---|---|")

@@ -1,33 +1,25 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "libindet/barrier/block_structure.h"
+#include "libindet/base/sparse_lu.h"
 
 namespace indet::barrier {
 
-/// The LU factor of a square matrix of columns of A, with rows in the order of a BlockStructure: by KLU
-/// (Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37, 36 (2010)), and after that by one elementary
-/// matrix for each column that another one has replaced (the product form of the inverse, Dantzig and
-/// Orchard-Hays 1954), until there are many of these.
+/// The LU factor of a square matrix of columns of A, with rows in the order of a BlockStructure: by
+/// KLU, and after that by one elementary matrix for each column that another one has replaced (the product
+/// form of the inverse, Dantzig and Orchard-Hays 1954), until there are many of these.
 class BasisFactor {
  public:
   explicit BasisFactor(const BlockStructure& structure);
-  ~BasisFactor();
-  BasisFactor(BasisFactor&&) noexcept;
 
-  /// A column that depends on others of the matrix, and a row that these leave free.
-  struct Dependent {
-    int p = 0;
-    int row = 0;
-  };
   /// Column p of the matrix is column basis[p] of A, or the unit vector of row i if that is unit_column(i).
   /// Returns a column that depends on others, as far as double precision tells: none if the matrix is
   /// regular.
-  std::optional<Dependent> factor(std::span<const int> basis);
+  std::optional<SparseLu::Dependent> factor(std::span<const int> basis);
   int unit_column(int row) const { return static_cast<int>(first_entry_.size()) - 1 + row; }
   /// The same with another column of A, a, at place p; `along`: A_B⁻¹ a. Returns as above; if not, the next
   /// call has to be `factor`.
@@ -42,7 +34,6 @@ class BasisFactor {
   void solve_transposed(std::vector<double>& c) const;
 
  private:
-  struct Lu;
   /// Identity but for column p.
   struct Elementary {
     int p = 0;
@@ -54,7 +45,7 @@ class BasisFactor {
   std::vector<int> first_entry_, row_;  ///< A, column by column
   std::vector<double> entry_;
   std::vector<int> basis_;
-  std::unique_ptr<Lu> lu_;
+  SparseLu lu_;
   std::vector<Elementary> replaced_;
 };
 

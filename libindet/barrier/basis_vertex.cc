@@ -30,8 +30,8 @@ bool BasisVertex::set_basis(std::span<const double> rank) {
   std::vector<int> dependent;  // places
   for (auto next = factor_.factor(basis); next; next = factor_.factor(basis)) {
     if (dependent.size() == kMostDependent) return false;
-    basis[index(next->p)] = factor_.unit_column(next->row);
-    dependent.push_back(next->p);
+    basis[index(next->column)] = factor_.unit_column(next->row);
+    dependent.push_back(next->column);
   }
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t p = 0; p < basis.size(); ++p) {

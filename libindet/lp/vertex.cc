@@ -3,11 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet {
+namespace {
+
+/// Whether the sparse factor is the faster one, which takes some time for each of the r equations, and the
+/// dense one d³ operations (docs/decisions/range-search.md).
+bool is_for_sparse(const SlopeView& view) {
+  constexpr int kFewestDimensions = 150;
+  constexpr double kPerEquation = 1e4;
+  const double d = view.dim();
+  return view.set && d >= kFewestDimensions &&
+         d * d * d >= kPerEquation * static_cast<double>(view.set->equations.rows());
+}
+
+}  // namespace
 
 Objective make_objective(const SlopeView& view, std::vector<std::pair<int, double>> on_edges) {
   Objective objective;
@@ -24,9 +38,20 @@ Eigen::VectorXd Vertex::edge_direction(int k) const {
   return active.solve(Eigen::VectorXd::Unit(z.size(), k));
 }
 
-Eigen::VectorXd Vertex::multipliers(const Eigen::Ref<const Eigen::VectorXd>& g) const {
-  if (z.size() == 0) return {};
-  const Eigen::VectorXd costs = active.transpose().solve(g);
+Eigen::VectorXd Vertex::edge_rates(const SlopeView& view, int k) const {
+  if (sparse) return sparse->edge(k);
+  return view.slope * edge_direction(k);
+}
+
+void Vertex::drop_factors() {
+  active = {};
+  sparse.reset();
+}
+
+Eigen::VectorXd Vertex::multipliers(const Objective& objective) const {
+  if (basis.empty()) return {};
+  if (sparse) return sparse->multipliers(objective.on_edges);
+  const Eigen::VectorXd costs = active.transpose().solve(objective.along_z);
   return -costs;
 }
 
@@ -51,8 +76,21 @@ Vertex compute_vertex(const SlopeView& view, const Basis& basis) {
   return vertex;
 }
 
+Vertex locate_vertex(const SlopeView& view, const Basis& basis) {
+  if (is_for_sparse(view) && std::ssize(basis) == view.dim()) {
+    if (auto sparse = SparseBasis::factorise(view.set, basis)) {
+      Vertex vertex;
+      vertex.basis = basis;
+      vertex.x = sparse->point();
+      vertex.sparse = std::move(sparse);
+      if (vertex.x.allFinite()) return vertex;
+    }
+  }
+  return compute_vertex(view, basis);
+}
+
 double polytope_edge_length(const SlopeView& view, const Vertex& vertex, int k) {
-  Eigen::VectorXd direction = view.slope * vertex.edge_direction(k);
+  Eigen::VectorXd direction = vertex.edge_rates(view, k);
   for (const int active : vertex.basis) direction[active] = 0;
   double length = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {

@@ -24,7 +24,7 @@ SlopeView slope_view(const EquilibriumProblem& problem, const NullSpace& null_sp
   SlopeView view;
   view.slope = problem.to_edges * null_space.basis;
   view.offset = problem.to_edges * null_space.particular;
-  if (null_space.rank > 0) {
+  if (null_space.rank > 0 && view.dim() >= kFewestForEquations) {
     view.set = std::make_shared<const FeasibleSet>(
         independent_equations(problem.edge_matrix, null_space.independent_rows, view.offset));
   }

@@ -17,9 +17,6 @@ namespace {
 /// that are much lighter than the mean are still seen.
 constexpr double kMagnification = 1e4;
 
-/// Dimensions from which the sparse equations are the faster form of a single linear program.
-constexpr int kFewestForEquations = 100;
-
 /// `set` with one unknown more, ≥ 0, which enters its equations by `column`.
 FeasibleSet with_column(const FeasibleSet& set, const Eigen::VectorXd& column) {
   FeasibleSet result;
@@ -81,7 +78,7 @@ InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& option
   lifted.slope.col(d).setConstant(-1);
   lifted.offset.resize(count + 1);
   lifted.offset << kMagnification * view.offset, kMagnification;
-  if (view.set) lifted.set = lifted_set(*view.set);
+  if (view.set && d >= kFewestForEquations) lifted.set = lifted_set(*view.set);
   const Objective height{Eigen::VectorXd::Unit(d + 1, d), {{count, -1.0}}};
 
   Eigen::VectorXd origin = Eigen::VectorXd::Zero(d + 1);
@@ -98,7 +95,7 @@ InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& option
   result.slack = vertex.z[d] / kMagnification;
   result.infeasibility = vertex.infeasibility() / kMagnification;
   if (!solved) return result;
-  const Eigen::VectorXd multipliers = vertex.multipliers(height.along_z);
+  const Eigen::VectorXd multipliers = vertex.multipliers(height);
   for (int i = 0; i <= d; ++i) {
     const int k = vertex.basis[static_cast<std::size_t>(i)];
     if (k < count) result.multipliers[k] = std::max(0.0, multipliers[i]);
@@ -112,7 +109,7 @@ SlopeView truncated_recession_cone(const SlopeView& view) {
   cone.slope.resize(count + 1, view.dim());
   cone.slope << view.slope, -view.slope.colwise().sum();
   cone.offset = Eigen::VectorXd::Unit(count + 1, count);
-  if (view.set) cone.set = cone_set(*view.set);
+  if (view.set && view.dim() >= kFewestForEquations) cone.set = cone_set(*view.set);
   return cone;
 }
 
@@ -129,7 +126,7 @@ RecessionRay find_recession_ray(const SlopeView& view, const LpOptions& options)
   RecessionRay ray;
   ray.pivots = answer.pivots;
   if (vertex.z.dot(total.along_z) < 0.5) {
-    const Eigen::VectorXd costs = vertex.multipliers(total.along_z);
+    const Eigen::VectorXd costs = vertex.multipliers(total);
     ray.multipliers.setZero(view.inequalities());
     for (Eigen::Index k = 0; k < costs.size(); ++k) {
       const int inequality = vertex.basis[static_cast<std::size_t>(k)];

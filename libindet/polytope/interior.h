@@ -9,6 +9,10 @@
 
 namespace indet {
 
+/// Dimensions from which the sparse equations are the faster form of a single linear program
+/// (docs/decisions/range-search.md).
+inline constexpr int kFewestForEquations = 100;
+
 /// The formulation for one linear program, or few: the dual one, and the sparse equations where they are
 /// given and the dimension is large.
 Formulation choose_formulation_of_one(const SlopeView& view);
@@ -32,7 +36,7 @@ struct InteriorPoint {
 InteriorPoint find_interior_point(const SlopeView& view, const LpOptions& options);
 
 /// The recession cone of a set, cut off: {z : slope · z ≥ 0, Σ slope · z ≤ 1}. Its inequalities are those of
-/// the set, then the cut. It has a FeasibleSet where `view` has one.
+/// the set, then the cut. Where `view` is large and has a FeasibleSet, so has it.
 SlopeView truncated_recession_cone(const SlopeView& view);
 
 /// A direction in which a set is unbounded.

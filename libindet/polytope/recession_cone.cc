@@ -34,7 +34,7 @@ std::optional<std::vector<int>> loaded_edges(const SlopeView& view, const Eigen:
     if (others.empty()) return loaded;
     LpAnswer answer = solver.maximise(make_objective(cone, others), start);
     if (answer.status != LpStatus::kOptimal) return {};
-    const Vertex vertex = compute_vertex(cone, answer.basis);
+    const Vertex vertex = locate_vertex(cone, answer.basis);
     double sum = 0;
     for (const auto& [k, one] : others) sum += vertex.x[k];
     if (sum <= tolerance::kRay) return loaded;

@@ -20,7 +20,7 @@ struct Face {
 
 /// From the vertex at which the functional is largest on the face of `held`.
 Face optimal_part(const Vertex& vertex, const Objective& functional, const std::vector<int>& held) {
-  const Eigen::VectorXd costs = vertex.multipliers(functional.along_z);
+  const Eigen::VectorXd costs = vertex.multipliers(functional);
   Face face{held, true};
   for (Eigen::Index k = 0; k < costs.size(); ++k) {
     const int inequality = vertex.basis[static_cast<std::size_t>(k)];
@@ -47,27 +47,29 @@ TaskResult CanonicalStates::find(Maximiser& solver, std::int64_t objective) cons
   TaskResult result;
   result.objective = objective;
   Face face{known.held, false};
-  Basis basis = table_.best_basis(objective);
+  Vertex vertex;
+  vertex.basis = table_.best_basis(objective);
   for (const Objective* functional : {&checker_.lightness(), &checker_.generic()}) {
-    const LpAnswer answer = solver.maximise(*functional, basis, face.held);
+    const LpAnswer answer = solver.maximise(*functional, vertex.basis, face.held);
     result.work.add(answer);
     if (answer.status != LpStatus::kOptimal) return result;
-    basis = answer.basis;
-    face = optimal_part(compute_vertex(view_, basis), *functional, face.held);
+    if (functional == &checker_.lightness() || answer.basis != vertex.basis)
+      vertex = locate_vertex(view_, answer.basis);
+    face = optimal_part(vertex, *functional, face.held);
     if (face.is_point) break;
   }
   result.status = LpStatus::kOptimal;
-  result.found = checker_.recompute(basis);
+  result.found = checker_.evaluate(std::move(vertex));
   result.verdicts = checker_.judge(table_.candidates(*result.found), *result.found);
   result.settles_state = true;
   result.unique = !checker_.has_free_polytope_edge(*result.found, known.held) &&
-                  is_point(solver, basis, known.held, result.work);
+                  is_point(solver, result.found->vertex, known.held, result.work);
   return result;
 }
 
 /// True if the face {x_k = 0, k ∈ held} is the given vertex alone: the generic functional is constant on it.
 /// Asked only at degenerate vertices.
-bool CanonicalStates::is_point(Maximiser& solver, const Basis& basis, const std::vector<int>& held,
+bool CanonicalStates::is_point(Maximiser& solver, const Vertex& vertex, const std::vector<int>& held,
                                SolverWork& work) const {
   Objective opposite = checker_.generic();
   opposite.along_z *= -1;
@@ -75,10 +77,13 @@ bool CanonicalStates::is_point(Maximiser& solver, const Basis& basis, const std:
   std::vector<double> values;
   for (const Objective* functional :
        std::initializer_list<const Objective*>{&checker_.generic(), &opposite}) {
-    const LpAnswer answer = solver.maximise(*functional, basis, held);
+    const LpAnswer answer = solver.maximise(*functional, vertex.basis, held);
     work.add(answer);
     if (answer.status != LpStatus::kOptimal) return false;
-    values.push_back(checker_.generic().along_z.dot(compute_vertex(view_, answer.basis).z));
+    const Vertex end = answer.basis == vertex.basis ? vertex : locate_vertex(view_, answer.basis);
+    double value = 0;
+    for (const auto& [k, coefficient] : checker_.generic().on_edges) value += coefficient * end.x[k];
+    values.push_back(value);
   }
   return std::abs(values[0] - values[1]) <= tolerance::kPointFace * std::max(1.0, std::abs(values[0]));
 }

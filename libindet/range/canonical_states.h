@@ -25,7 +25,8 @@ class CanonicalStates {
   TaskResult find(Maximiser& solver, std::int64_t objective) const;
 
  private:
-  bool is_point(Maximiser& solver, const Basis& basis, const std::vector<int>& held, SolverWork& work) const;
+  bool is_point(Maximiser& solver, const Vertex& vertex, const std::vector<int>& held,
+                SolverWork& work) const;
 
   const SlopeView& view_;
   const OptimalityChecker& checker_;

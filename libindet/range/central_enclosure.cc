@@ -9,7 +9,6 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
-#include "libindet/dense/lu.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/range/barrier_ranges.h"
@@ -71,12 +70,12 @@ class CentralEncloser {
   }
 
   /// h̃ at a basis of one block, added to `costs`.
-  void add_reduced_costs(const Functional& f, std::size_t number, const Basis& basis,
-                         const Eigen::PartialPivLU<Eigen::MatrixXd>& active, Eigen::VectorXd& costs) const {
+  void add_reduced_costs(const Functional& f, std::size_t number, const Vertex& vertex,
+                         Eigen::VectorXd& costs) const {
     const PolytopeBlock& block = polytope_.blocks[number];
-    const Eigen::VectorXd reduced = active.transpose().solve(gradient_along(block, f));
+    const Eigen::VectorXd reduced = -vertex.multipliers(objective_on(block, f));
     for (Eigen::Index k = 0; k < reduced.size(); ++k)
-      costs[block.edges[static_cast<std::size_t>(basis[static_cast<std::size_t>(k)])]] +=
+      costs[block.edges[static_cast<std::size_t>(vertex.basis[static_cast<std::size_t>(k)])]] +=
           std::max(0.0, reduced[k]);
   }
 
@@ -112,7 +111,7 @@ class CentralEncloser {
             const Functional f = functional(proof.contact, proof.column);
             if (f.on_edges.empty()) continue;
             Eigen::VectorXd costs = Eigen::VectorXd::Zero(problem_.unknowns());
-            add_reduced_costs(f, basis.block, basis.vertex.basis, basis.vertex.active, costs);
+            add_reduced_costs(f, basis.block, basis.vertex, costs);
             const int row = extrema_.vertex(proof.contact, proof.column);
             if (row < 0 && !at_vertex)
               at_vertex = point_at(problem_.units.scene(state_at(polytope_, basis.block, basis.vertex)));
@@ -158,9 +157,7 @@ class CentralEncloser {
     const Functional f = sum_of_forces(problem_, sum.coefficients).opposite();
     Eigen::VectorXd costs = Eigen::VectorXd::Zero(problem_.unknowns());
     for (const auto& [block, basis] : sum.bases) {
-      const Eigen::PartialPivLU<Eigen::MatrixXd> active(
-          polytope_.blocks[block].view.slope(basis, Eigen::all));
-      add_reduced_costs(f, block, basis, active, costs);
+      add_reduced_costs(f, block, locate_vertex(polytope_.blocks[block].view, basis), costs);
     }
     const std::vector<double> y = multipliers(f, costs);
     const barrier::ValueBounds least = sum.bases.empty()

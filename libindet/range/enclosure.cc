@@ -10,7 +10,6 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/base/rounding_bounds.h"
-#include "libindet/dense/lu.h"
 #include "libindet/range/central_enclosure.h"
 #include "libindet/range/equation_bounds.h"
 #include "libindet/range/functional.h"
@@ -122,7 +121,7 @@ class Encloser {
       for (const std::size_t k : numbers) {
         const auto [i, column] = std::pair(proofs[k].contact, proofs[k].column);
         const Functional f = functional(i, column);
-        costs_[k] = reduced_costs(f, basis.block, basis.vertex.active);
+        costs_[k] = reduced_costs(f, basis.block, basis.vertex);
         if (extrema_.vertex(i, column) >= 0) continue;
         if (!forces) {
           forces = problem_.units.scene(state_at(polytope_, basis.block, basis.vertex));
@@ -159,10 +158,9 @@ class Encloser {
     return y;
   }
 
-  /// λ of the active inequalities, whose factors are given.
-  Eigen::VectorXd reduced_costs(const Functional& f, std::size_t number,
-                                const Eigen::PartialPivLU<Eigen::MatrixXd>& active) const {
-    return active.transpose().solve(gradient_along(polytope_.blocks[number], f));
+  /// −λ of the vertex's active inequalities.
+  Eigen::VectorXd reduced_costs(const Functional& f, std::size_t number, const Vertex& vertex) const {
+    return -vertex.multipliers(objective_on(polytope_.blocks[number], f));
   }
 
   void add_reduced_costs(std::size_t block, const Basis& basis, const Eigen::VectorXd& costs,
@@ -319,9 +317,8 @@ class Encloser {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(equations_.rank());
     for (const auto& [unknown, coefficient] : f.on_unknowns) add_unknown(unknown, coefficient, y);
     for (const auto& [block, basis] : sum.bases) {
-      const Eigen::PartialPivLU<Eigen::MatrixXd> active(
-          polytope_.blocks[block].view.slope(basis, Eigen::all));
-      add_reduced_costs(block, basis, reduced_costs(f, block, active), y);
+      const Vertex vertex = locate_vertex(polytope_.blocks[block].view, basis);
+      add_reduced_costs(block, basis, reduced_costs(f, block, vertex), y);
     }
     const double outer = from_above(f, y);
     double inner = from_below(f, bound_of(sum.state));

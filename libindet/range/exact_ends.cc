@@ -78,7 +78,7 @@ void settle_exactly(const Packing& packing, const ForcePolytope& polytope, const
       if (proofs(i, column) >= 0) {
         const OptimalBasis& proof = extrema.proofs[static_cast<std::size_t>(proofs(i, column))];
         state =
-            state_at(polytope, proof.block, compute_vertex(polytope.blocks[proof.block].view, proof.basis));
+            state_at(polytope, proof.block, locate_vertex(polytope.blocks[proof.block].view, proof.basis));
         bases.emplace_back(proof.block, proof.basis);
       }
       const bool is_maximum = column == kMaxR || column == kMaxT;

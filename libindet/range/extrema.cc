@@ -296,7 +296,7 @@ class ExtremaFinder {
         make_canonical(number, searched[number], proofs[number]);
       for (const OptimalBasis* proof : proofs[number]) {
         std::int32_t& row = extrema_.vertex(proof->contact, proof->column);
-        if (row == kNotYet) row = states_.add(number, compute_vertex(view, proof->basis));
+        if (row == kNotYet) row = states_.add(number, locate_vertex(view, proof->basis));
       }
     }
     for (const int i : chosen) {

@@ -65,14 +65,14 @@ Functional force_component(const EquilibriumProblem& problem, const std::vector<
   return f;
 }
 
-Eigen::VectorXd gradient_along(const PolytopeBlock& block, const Functional& f) {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(block.view.dim());
+Objective objective_on(const PolytopeBlock& block, const Functional& f) {
+  std::vector<std::pair<int, double>> on_edges;
   for (const auto& [edge, coefficient] : f.on_edges) {
     const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
     if (local != block.edges.end() && *local == edge)
-      gradient += coefficient * block.view.slope.row(local - block.edges.begin()).transpose();
+      on_edges.emplace_back(static_cast<int>(local - block.edges.begin()), coefficient);
   }
-  return gradient;
+  return make_objective(block.view, std::move(on_edges));
 }
 
 }  // namespace indet

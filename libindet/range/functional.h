@@ -37,7 +37,7 @@ Functional sum_of_forces(const EquilibriumProblem& problem, const Eigen::VectorX
 Functional force_component(const EquilibriumProblem& problem, const std::vector<int>& first,
                            Eigen::Index contact, bool tangential, double sign);
 
-/// How the part of a functional that lives on a block grows along its coordinates z. [d]
-Eigen::VectorXd gradient_along(const PolytopeBlock& block, const Functional& f);
+/// The part of a functional that lives on a block.
+Objective objective_on(const PolytopeBlock& block, const Functional& f);
 
 }  // namespace indet

@@ -62,7 +62,7 @@ std::vector<int> ObjectiveTable::merge(std::vector<TaskResult> results) {
     }
     if (is_kept) {
       vertices_.push_back(std::move(result.found->vertex));
-      vertices_.back().active = {};
+      vertices_.back().drop_factors();
       if (sink_) {
         hand_over(vertices_.back(), number, result.verdicts);
         vertices_.back().x = vertices_.back().z = {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
@@ -51,16 +52,16 @@ double OptimalityChecker::value_of(std::int64_t component, const Eigen::VectorXd
   return value;
 }
 
-CheckedVertex OptimalityChecker::recompute(const Basis& basis) const {
+CheckedVertex OptimalityChecker::evaluate(Vertex vertex) const {
   CheckedVertex checked;
-  checked.vertex = compute_vertex(view_, basis);
+  checked.vertex = std::move(vertex);
   checked.values.resize(rows_.rows());
   for (Eigen::Index c = 0; c < rows_.rows(); ++c) checked.values[c] = value_of(c, checked.vertex.x);
   checked.weight = weight_.dot(checked.vertex.x);
   if (canonical_states_) {
     checked.state_costs.resize(2, view_.dim());
-    checked.state_costs.row(0) = checked.vertex.multipliers(lightness_.along_z).transpose();
-    checked.state_costs.row(1) = checked.vertex.multipliers(generic_.along_z).transpose();
+    checked.state_costs.row(0) = checked.vertex.multipliers(lightness_).transpose();
+    checked.state_costs.row(1) = checked.vertex.multipliers(generic_).transpose();
   }
   checked.has_length.resize(static_cast<std::size_t>(view_.dim()));
   return checked;
@@ -74,8 +75,7 @@ std::vector<ObjectiveVerdict> OptimalityChecker::judge(std::span<const std::int6
     if (rows.empty() || rows.back() != row) rows.push_back(row);
   }
   if (rows.empty()) return {};
-  const Eigen::MatrixXd chosen = rows_(rows, Eigen::all).transpose();
-  const Eigen::MatrixXd change = checked.vertex.active.transpose().solve(chosen);  // d × chosen: g S_N⁻¹
+  const Eigen::MatrixXd change = changes(rows, checked.vertex);
   std::vector<ObjectiveVerdict> verdicts;
   std::size_t row = 0;
   for (const std::int64_t objective : objectives) {
@@ -84,6 +84,20 @@ std::vector<ObjectiveVerdict> OptimalityChecker::judge(std::span<const std::int6
         judge_one(objective, checked, change.col(static_cast<Eigen::Index>(row)) * -sign_of(objective)));
   }
   return verdicts;
+}
+
+/// g S_N⁻¹ of the objectives of the given components. [d × rows]
+Eigen::MatrixXd OptimalityChecker::changes(const std::vector<int>& rows, const Vertex& vertex) const {
+  if (!vertex.sparse) {
+    const Eigen::MatrixXd chosen = rows_(rows, Eigen::all).transpose();
+    return vertex.active.transpose().solve(chosen);
+  }
+  Eigen::MatrixXd result(view_.dim(), std::ssize(rows));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result.col(static_cast<Eigen::Index>(i)) =
+        -vertex.multipliers(objectives_[static_cast<std::size_t>(rows[i])]);
+  }
+  return result;
 }
 
 /// Reads the reduced costs λ (positive: leaving inequality k loses).
@@ -130,7 +144,7 @@ bool OptimalityChecker::keeps_to(const CheckedVertex& checked, int k, const std:
   std::vector<int> others;
   std::set_difference(held.begin(), held.end(), basis.begin(), basis.end(), std::back_inserter(others));
   if (others.empty()) return true;
-  const Eigen::VectorXd rates = view_.slope(others, Eigen::all) * checked.vertex.edge_direction(k);
+  const Eigen::VectorXd rates = checked.vertex.edge_rates(view_, k)(others);
   return rates.lpNorm<Eigen::Infinity>() <= tolerance::kHeldRate;
 }
 

@@ -53,7 +53,8 @@ class OptimalityChecker {
   const Objective& generic() const { return generic_; }
 
   /// Recomputes the vertex from its basis. Throws LibraryError if that is singular.
-  CheckedVertex recompute(const Basis& basis) const;
+  CheckedVertex recompute(const Basis& basis) const { return evaluate(locate_vertex(view_, basis)); }
+  CheckedVertex evaluate(Vertex vertex) const;
 
   /// Judges a vertex for objectives in ascending order: with the d active inequalities N, λ = −g S_N⁻¹ are
   /// the reduced costs of objective g, and λ ≥ 0 proves the vertex optimal.
@@ -64,6 +65,7 @@ class OptimalityChecker {
   bool has_free_polytope_edge(CheckedVertex& checked, const std::vector<int>& held) const;
 
  private:
+  Eigen::MatrixXd changes(const std::vector<int>& rows, const Vertex& vertex) const;
   ObjectiveVerdict judge_one(std::int64_t objective, CheckedVertex& checked,
                              const Eigen::VectorXd& costs) const;
   bool polytope_edge_has_length(CheckedVertex& checked, int k) const;

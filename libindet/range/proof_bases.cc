@@ -17,7 +17,7 @@ void for_each_basis(
     std::size_t last = first;
     while (last < order.size() && key(order[last]) == key(order[first])) ++last;
     const OptimalBasis& proof = proofs[order[first]];
-    visit({proof.block, compute_vertex(polytope.blocks[proof.block].view, proof.basis)},
+    visit({proof.block, locate_vertex(polytope.blocks[proof.block].view, proof.basis)},
           std::span(order).subspan(first, last - first));
     first = last;
   }

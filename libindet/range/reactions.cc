@@ -34,7 +34,7 @@ class BlockSearch {
     const SlopeView& cone = block.recession->truncated;
     cone_solver_.emplace(cone, choose_formulation_of_one(cone), options);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(cone.dim());
-    end_ = compute_vertex(cone, purify_to_vertex(cone, zero, zero));
+    end_ = locate_vertex(cone, purify_to_vertex(cone, zero, zero));
   }
 
   /// Nothing if the functional (of the block's edges) is the same everywhere in the block. `start`: a vertex.
@@ -52,9 +52,11 @@ class BlockSearch {
       const LpAnswer answer = cone_solver_->maximise(growth, end_.basis);
       if (answer.status != LpStatus::kOptimal) return result;
       // The solver stands there with its factors, and where it stays ours are still good.
-      if (answer.basis != end_.basis) end_ = compute_vertex(cone, answer.basis);
+      if (answer.basis != end_.basis) end_ = locate_vertex(cone, answer.basis);
       const Vertex& end = end_;
-      if (growth.along_z.dot(end.z) > tolerance::kRay * size) {
+      double grown = 0;
+      for (const auto& [edge, coefficient] : growth.on_edges) grown += coefficient * end.x[edge];
+      if (grown > tolerance::kRay * size) {
         result.outcome =
             end.infeasibility() <= tolerance::kRayResidual ? Outcome::kUnbounded : Outcome::kImprecise;
         result.ray = recession.ray(end.x, block_.view.inequalities());
@@ -63,8 +65,8 @@ class BlockSearch {
     }
     const LpAnswer answer = solver_.maximise(objective, start);
     if (answer.status != LpStatus::kOptimal) return result;
-    result.vertex = compute_vertex(block_.view, answer.basis);
-    const Eigen::VectorXd costs = result.vertex.multipliers(objective.along_z);
+    result.vertex = locate_vertex(block_.view, answer.basis);
+    const Eigen::VectorXd costs = result.vertex.multipliers(objective);
     result.dual_residual = costs.size() > 0 ? std::max(0.0, -costs.minCoeff()) / std::max(1.0, size) : 0;
     result.outcome = Outcome::kOptimal;
     return result;

@@ -88,10 +88,11 @@ TEST(BasisFactor, SaysWhichColumnsAreDependent) {
     // Unit vectors make it regular, one after the other; the first comes in place of one of these columns.
     int replaced = 0;
     for (auto next = factor.factor(basis); next; next = factor.factor(basis)) {
-      EXPECT_TRUE(replaced > 0 || next->p == 0 || next->p == 1 || next->p == 4 || next->p == 5);
+      EXPECT_TRUE(replaced > 0 || next->column == 0 || next->column == 1 || next->column == 4 ||
+                  next->column == 5);
       ASSERT_LT(replaced, 10);
       ++replaced;
-      basis[static_cast<std::size_t>(next->p)] = factor.unit_column(next->row);
+      basis[static_cast<std::size_t>(next->column)] = factor.unit_column(next->row);
     }
     EXPECT_GE(replaced, 2);
   }

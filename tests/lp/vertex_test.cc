@@ -60,7 +60,7 @@ TEST(Vertex, SatisfiesItsInequalitiesAndItsMultipliersReproduceTheObjective) {
     const Objective objective = make_objective(view, {{0, 2.0}, {d, -1.0}});
     EXPECT_LE((objective.along_z - 2 * view.slope.row(0).transpose() + view.slope.row(d).transpose()).norm(),
               1e-15);
-    const Eigen::VectorXd costs = vertex.multipliers(objective.along_z);
+    const Eigen::VectorXd costs = vertex.multipliers(objective);
     EXPECT_LE((view.slope(basis, Eigen::all).transpose() * costs + objective.along_z).norm(), 1e-12);
     for (int k = 0; k < d; ++k) {
       // Leaving inequality k by one unit loses its multiplier.

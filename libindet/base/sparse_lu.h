@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace indet {
+
+/// P A Q = L U of a square sparse matrix A by KLU (Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37,
+/// 36 (2010)): block triangular form, then a minimum degree order and partial pivoting in each block. The
+/// only file pair that includes klu.h. To be used by one thread at a time.
+class SparseLu {
+ public:
+  /// `least_share`: how small a pivot may be, relative to its column, where its place suits the order.
+  explicit SparseLu(double least_share = 1e-3);
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+
+  /// A pivot below this, relative to its column, is rounding, or makes a matrix of large condition.
+  static constexpr double kLeastPivot = 1e-9;
+
+  /// A column that depends on others of the matrix, and a row that these leave free.
+  struct Dependent {
+    int column = 0;
+    int row = 0;
+  };
+  /// Of the n × n matrix whose column j has `rows` and `entries` from first[j] to first[j + 1] − 1. Returns a
+  /// column that depends on others, as far as double precision tells: none if the matrix is regular. Throws
+  /// LibraryError if KLU fails.
+  std::optional<Dependent> factor(std::span<int> first, std::span<int> rows, std::span<double> entries);
+
+  /// r := A⁻¹ r and c := A⁻ᵀ c. Precondition: factor found the matrix regular.
+  void solve(std::span<double> r) const;
+  void solve_transposed(std::span<double> c) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace indet
