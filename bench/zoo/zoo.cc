@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   std::map<std::string, std::pair<int, extremes::Tally>> table;
   extremes::Tally total;
   int scenes = 0;
+  std::vector<std::string> marked;
   std::vector<std::pair<Variant, extremes::Tally>> by_variant;
   for (const Variant& variant : variants()) by_variant.emplace_back(variant, extremes::Tally());
   const auto visit = [&](const extremes::Scene& scene, bool in_all_variants) {
@@ -70,6 +71,7 @@ int main(int argc, char** argv) {
       return tally;
     };
     const extremes::Tally tally = judged({});
+    if (tally.marked > 0) marked.push_back(fmt::format("{}, {}: {}", scene.kind, scene.name, tally.marked));
     if (in_all_variants) {
       for (auto& [variant, sum] : by_variant) sum.add(judged(variant.options));
     }
@@ -101,6 +103,8 @@ int main(int argc, char** argv) {
                tally.marked, tally.wrong);
     total.add(tally);
   }
+  if (!marked.empty()) fmt::print("\nmarked, and how many values:\n");
+  for (const std::string& scene : marked) fmt::print("- {}\n", scene);
   for (const std::string& complaint : total.complaints) fmt::print("WRONG {}\n", complaint);
   return total.wrong == 0 ? 0 : 1;
 }

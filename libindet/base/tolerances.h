@@ -121,6 +121,11 @@ inline constexpr double kMotionEntry = 1e-9;
 /// largest, which is 1) is held at exactly 0.
 inline constexpr double kExactZero = 1e-9;
 
+/// By this much of it (of both the largest entry is 1) a ray that cannot be proven is moved towards the sum
+/// of all rays: forces that it leaves alone then grow by far more than kExactZero, those that it lets grow
+/// still do.
+inline constexpr double kInwardShift = 1e-3;
+
 /// An edge of a cone whose strength changes by up to this along an edge of the polytope is not coupled to it;
 /// uncoupled parts are blocks.
 inline constexpr double kCoupling = 1e-9;

@@ -138,11 +138,12 @@ bool is_whole_combination(const IntegerColumn& row, const std::vector<const Inte
   return true;
 }
 
-/// True if every row that is not among the pivots' is a combination of these, load included: a motion with
-/// this row and independent ones alone, under which every column rests and the load does no work. Which rows
-/// take part is found modulo the prime; they are usually few (of a lone disk on a floor, its own).
+/// True if every row that is not among the pivots' is a combination of these, load included if it is given: a
+/// motion with this row and independent ones alone, under which every column rests and the load does no work.
+/// Which rows take part is found modulo the prime; they are usually few (of a lone disk on a floor, its own).
 bool follow_from(const ContactProblem& problem, const std::vector<const IntegerColumn*>& columns,
-                 const PrimeField& field, const ModularLu& lu, std::size_t most_rows) {
+                 const IntegerColumn* load, const PrimeField& field, const ModularLu& lu,
+                 std::size_t most_rows) {
   const std::vector<int> independent = lu.pivot_rows();
   const std::vector<int> number = numbers_of(independent, problem.rows());
   const std::vector<int> pivot_columns = lu.pivot_columns();
@@ -150,9 +151,8 @@ bool follow_from(const ContactProblem& problem, const std::vector<const IntegerC
   const ModularLu square_lu(field, lu.rank(), pointers_to(square));
   if (square_lu.rank() != lu.rank()) return false;
 
-  const IntegerColumn load = load_column(problem);
   std::vector<const IntegerColumn*> conditions = columns;
-  conditions.push_back(&load);
+  if (load) conditions.push_back(load);
   const std::vector<IntegerColumn> by_row = transposed(conditions, problem.rows());
   std::vector<const IntegerColumn*> others;
   for (const int k : independent) others.push_back(&by_row[static_cast<std::size_t>(k)]);
@@ -177,6 +177,15 @@ bool follow_from(const ContactProblem& problem, const std::vector<const IntegerC
     if (!kernel_vector(chosen, static_cast<int>(conditions.size()), one)) return false;
   }
   return true;
+}
+
+/// True if the columns have exactly this rank, and, if the load is given, do not contradict it.
+bool has_rank(const ContactProblem& problem, const std::vector<const IntegerColumn*>& columns,
+              const IntegerColumn* load, int rank, std::size_t most_rows) {
+  const PrimeField field(large_prime(0));
+  const ModularLu lu(field, problem.rows(), columns);
+  if (lu.rank() != rank) return false;
+  return rank == problem.rows() || follow_from(problem, columns, load, field, lu, most_rows);
 }
 
 std::vector<bool> open_after(const ContactProblem& problem, std::span<const Closing> closings) {
@@ -241,10 +250,26 @@ std::vector<double> Motion::rounded() const {
 
 namespace {
 
-/// The motion nearest to the guess under which the load does work and no open edge resists.
+/// The motion nearest to the guess in which these edges rest, if the load does work under it and no open edge
+/// resists.
+std::optional<Motion> held_motion(const ContactProblem& problem, std::span<const double> guess,
+                                  const std::vector<bool>& open, std::span<const int> still) {
+  auto motion = Motion::repair(problem, still, true, guess);
+  if (!motion || motion->load_power() <= 0) return {};
+  for (int e = 0; e < problem.edges(); ++e) {
+    if (open[static_cast<std::size_t>(e)] && motion->edge_power(e) < 0) return {};
+  }
+  return motion;
+}
+
+/// The same with edges held still whose power in the guess is up to `zero`: all of them, or, where velocities
+/// and friction coefficients are so far apart that some of these powers are none of rounding, those below a
+/// gap.
 std::optional<Motion> falling_motion(const ContactProblem& problem, std::span<const double> guess,
                                      const std::vector<bool>& open, double zero) {
-  std::vector<int> still;
+  constexpr double kGap = 4;
+  constexpr int kMostGaps = 16;
+  std::vector<std::pair<double, int>> small;
   for (int e = 0; e < problem.edges(); ++e) {
     if (!open[static_cast<std::size_t>(e)]) continue;
     const IntegerColumn& column = problem.edge(e);
@@ -253,14 +278,20 @@ std::optional<Motion> falling_motion(const ContactProblem& problem, std::span<co
       power += std::ldexp(column.value[k].get_d(), static_cast<int>(-column.shift)) *
                guess[static_cast<std::size_t>(column.row[k])];
     const double mu = problem.is_slack(e) ? 0 : problem.mu(e / 2).get_d();
-    if (std::abs(power) <= zero * std::max(1.0, mu)) still.push_back(e);
+    const double size = std::abs(power) / std::max(1.0, mu);
+    if (size <= zero) small.emplace_back(size, e);
   }
-  auto motion = Motion::repair(problem, still, true, guess);
-  if (!motion || motion->load_power() <= 0) return {};
-  for (int e = 0; e < problem.edges(); ++e) {
-    if (open[static_cast<std::size_t>(e)] && motion->edge_power(e) < 0) return {};
+  std::sort(small.begin(), small.end());
+  std::vector<int> still;
+  for (const auto& [size, e] : small) still.push_back(e);
+  if (auto motion = held_motion(problem, guess, open, still)) return motion;
+  int gaps = 0;
+  for (std::size_t held = small.size(); held-- > 0 && gaps < kMostGaps;) {
+    if (held > 0 && small[held].first <= kGap * small[held - 1].first) continue;
+    ++gaps;
+    if (auto motion = held_motion(problem, guess, open, std::span(still).first(held))) return motion;
   }
-  return motion;
+  return {};
 }
 
 std::vector<int> numbers_of_true(const std::vector<bool>& chosen) {
@@ -334,11 +365,14 @@ bool proves_structure(const ContactProblem& problem, std::span<const Closing> cl
   // work.
   std::vector<const IntegerColumn*> columns;
   for (const int e : numbers_of_true(open_after(problem, closings))) columns.push_back(&problem.edge(e));
-  const PrimeField field(large_prime(0));
-  const ModularLu lu(field, problem.rows(), columns);
-  if (lu.rank() != *final_rank) return false;
-  if (lu.rank() == problem.rows()) return true;
-  return follow_from(problem, columns, field, lu, most_rows);
+  const IntegerColumn load = load_column(problem);
+  return has_rank(problem, columns, &load, *final_rank, most_rows);
+}
+
+bool proves_rank(const ContactProblem& problem) {
+  std::vector<const IntegerColumn*> columns;
+  for (const int e : problem.open_edges()) columns.push_back(&problem.edge(e));
+  return has_rank(problem, columns, nullptr, problem.rank(), std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace indet::exact

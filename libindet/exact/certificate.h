@@ -63,6 +63,9 @@ std::optional<std::vector<double>> find_falling_motion(const ContactProblem& pro
 /// is clear in the guess.
 bool proves_ray(const ContactProblem& problem, std::span<const double> guess, double zero);
 
+/// True if the rank of the equations is ContactProblem::rank(), which is a lower bound by itself.
+bool proves_rank(const ContactProblem& problem);
+
 /// True if each step's edges are 0 in every state (a motion exists under which they open, the load does no
 /// work, and every edge that stays open rests), and the equations of the edges that stay open in the end have
 /// exactly the given rank and do not contradict each other (not asked if no rank is given). Of a row

@@ -73,7 +73,7 @@ bool ContactBasis::satisfies_all_rows() const {
   return std::all_of(rest.begin(), rest.end(), [](const mpz_class& value) { return value == 0; });
 }
 
-bool ContactBasis::proves_contradiction() const {
+std::optional<std::vector<double>> ContactBasis::contradiction() const {
   for (int row = 0; row < problem_.rows(); ++row) {
     if (problem_.row_number()[static_cast<std::size_t>(row)] >= 0) continue;
     const auto entry = [row](const IntegerColumn& column) {
@@ -94,9 +94,28 @@ bool ContactBasis::proves_contradiction() const {
       dependent = !problem_.has_edge(e) ||
                   product(combination, e) == entry(problem_.edge(e)) * combination.denominator;
     }
-    if (dependent) return true;
+    // With the row's own load b_i and that of the combination, y · b = −rest / denominator.
+    if (dependent) return rounded_motion(combination, sgn(rest), row);
   }
-  return false;
+  return {};
+}
+
+std::vector<double> ContactBasis::rounded_motion(const RationalVector& y, int sign, int more_row) const {
+  mpz_class largest = more_row >= 0 ? y.denominator : mpz_class(0);
+  for (const mpz_class& entry : y.numerator) largest = std::max(largest, mpz_class(abs(entry)));
+  const auto share = [&](const mpz_class& entry) {
+    mpq_class quotient(entry, largest);
+    quotient.canonicalize();
+    return sign * quotient.get_d();
+  };
+  std::vector<double> motion(static_cast<std::size_t>(problem_.rows()), 0);
+  for (int row = 0; row < problem_.rows(); ++row) {
+    const int number = problem_.row_number()[static_cast<std::size_t>(row)];
+    if (number >= 0)
+      motion[static_cast<std::size_t>(row)] = share(y.numerator[static_cast<std::size_t>(number)]);
+  }
+  if (more_row >= 0) motion[static_cast<std::size_t>(more_row)] = share(-y.denominator);
+  return motion;
 }
 
 mpq_class ContactBasis::value(const RationalVector& x, std::size_t v) const {
@@ -111,15 +130,16 @@ std::size_t ContactBasis::first_variable(int edge) const {
   return variables_.size() - static_cast<std::size_t>(after);
 }
 
-int ContactBasis::sign_of(const RationalVector& x, int edge) const {
-  const int contact = edge / 2;
+mpq_class ContactBasis::strength_in(const RationalVector& x, int edge) const {
   const std::size_t v = first_variable(edge);
-  if (variables_[v].kind == 2) return sgn(x.numerator[v]);
-  // 2μx± = μR ± T
-  const mpq_class R = scaled(mpq_class(x.numerator[v]), full_[v]->shift);
-  const mpq_class T = scaled(mpq_class(x.numerator[v + 1]), full_[v + 1]->shift);
-  const mpq_class limit = problem_.mu(contact) * R;
-  return edge % 2 == 0 ? sgn(mpq_class(limit + T)) : sgn(mpq_class(limit - T));
+  if (variables_[v].kind == 2) return value(x, v);
+  const mpq_class over_mu = value(x, v + 1) / problem_.mu(edge / 2);
+  return (edge % 2 == 0 ? mpq_class(value(x, v) + over_mu) : mpq_class(value(x, v) - over_mu)) / 2;
+}
+
+int ContactBasis::sign_of(const RationalVector& x, int edge) const {
+  const std::size_t v = first_variable(edge);
+  return variables_[v].kind == 2 ? sgn(x.numerator[v]) : sgn(strength_in(x, edge));
 }
 
 int ContactBasis::first_negative() const {
@@ -129,30 +149,33 @@ int ContactBasis::first_negative() const {
   return -1;
 }
 
-mpq_class ContactBasis::force(int component) const {
+mpq_class ContactBasis::force_in(const RationalVector& x, int component) const {
   const int contact = component / 2;
   const int first = first_variable_[static_cast<std::size_t>(contact)];
   if (first < 0) return 0;
   const auto v = static_cast<std::size_t>(first);
-  mpq_class force;
-  if (variables_[v].kind == 2) {
-    force = value(x_, v);
-    if (component % 2 == 1)
-      force *= variables_[v].edge % 2 == 0 ? problem_.mu(contact) : -problem_.mu(contact);
-  } else {
-    force = value(x_, component % 2 == 0 ? v : v + 1);
-  }
-  return force / problem_.load_scale();
+  if (variables_[v].kind != 2) return value(x, component % 2 == 0 ? v : v + 1);
+  mpq_class force = value(x, v);
+  if (component % 2 == 1) force *= variables_[v].edge % 2 == 0 ? problem_.mu(contact) : -problem_.mu(contact);
+  return force;
 }
+
+mpq_class ContactBasis::force(int component) const { return force_in(x_, component) / problem_.load_scale(); }
 
 mpq_class ContactBasis::sum(const Goal& goal) const {
   mpq_class sum = 0;
   for (const auto& [component, coefficient] : goal.terms) sum += mpq_class(coefficient) * force(component);
+  for (const auto& [edge, weight] : goal.strengths) {
+    if (is_basic(edge)) sum += mpq_class(weight) * strength_in(x_, edge) / problem_.load_scale();
+  }
   return sum;
 }
 
 mpq_class ContactBasis::edge_cost(int edge, const Goal& goal) const {
   mpq_class cost = 0;
+  const auto own = std::lower_bound(goal.strengths.begin(), goal.strengths.end(), edge,
+                                    [](const auto& entry, int e) { return entry.first < e; });
+  if (own != goal.strengths.end() && own->first == edge) cost += mpq_class(own->second);
   if (problem_.is_slack(edge)) return cost;
   for (const auto& [component, coefficient] : goal.terms) {
     if (component / 2 != edge / 2) continue;
@@ -170,6 +193,12 @@ mpq_class ContactBasis::edge_cost(int edge, const Goal& goal) const {
 mpq_class ContactBasis::cost(const Variable& variable, const Goal& goal) const {
   if (variable.kind == 2) return edge_cost(variable.edge, goal);
   mpq_class cost = 0;
+  if (!goal.strengths.empty()) {  // x± = (R ± T/μ)/2
+    const mpq_class plus = edge_cost(2 * variable.contact, goal);
+    const mpq_class minus = edge_cost(2 * variable.contact + 1, goal);
+    if (variable.kind == 0) return (plus + minus) / 2;
+    return (plus - minus) / (2 * problem_.mu(variable.contact));
+  }
   for (const auto& [component, coefficient] : goal.terms) {
     if (component == 2 * variable.contact + variable.kind) cost += goal.sign * mpq_class(coefficient);
   }
@@ -199,51 +228,99 @@ mpz_class ContactBasis::product(const RationalVector& y, int edge) const {
   return sum;
 }
 
+int ContactBasis::sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers,
+                               const mpz_class& scale) const {
+  const mpz_class priced = product(multipliers.y, edge);
+  const mpq_class own = edge_cost(edge, goal);
+  return own == 0 ? -sgn(priced) : sgn(mpq_class(scaled(own, problem_.edge(edge).shift) * scale - priced));
+}
+
 int ContactBasis::first_improving(const Goal& goal, const Multipliers& multipliers) const {
   const mpz_class scale = multipliers.scale * multipliers.y.denominator;
   for (int e = 0; e < problem_.edges(); ++e) {
-    if (is_basic(e) || !problem_.has_edge(e)) continue;
-    const mpz_class priced = product(multipliers.y, e);
-    const mpq_class own = edge_cost(e, goal);
-    const int sign =
-        own == 0 ? -sgn(priced) : sgn(mpq_class(scaled(own, problem_.edge(e).shift) * scale - priced));
-    if (sign > 0) return e;
+    if (!is_basic(e) && problem_.has_edge(e) && sign_of_cost(e, goal, multipliers, scale) > 0) return e;
   }
   return -1;
 }
 
-int ContactBasis::first_blocking(int entering) const {
+std::vector<int> ContactBasis::costly(const Goal& goal, const Multipliers& multipliers) const {
+  const mpz_class scale = multipliers.scale * multipliers.y.denominator;
+  std::vector<int> edges;
+  for (int e = 0; e < problem_.edges(); ++e) {
+    if (!is_basic(e) && problem_.has_edge(e) && sign_of_cost(e, goal, multipliers, scale) < 0)
+      edges.push_back(e);
+  }
+  return edges;
+}
+
+RationalVector ContactBasis::change_by(int entering) const {
   const IntegerColumn column = on_rows(problem_.edge(entering), problem_.row_number());
   std::vector<mpz_class> right(static_cast<std::size_t>(problem_.rank()), 0);
   for (std::size_t k = 0; k < column.row.size(); ++k)
     right[static_cast<std::size_t>(column.row[k])] = column.value[k];
-  const RationalVector change = solver_->solve(right);
+  return solver_->solve(right);
+}
+
+int ContactBasis::first_blocking(int entering) const {
+  const RationalVector change = change_by(entering);
   for (const int e : edges_) {
     if (sign_of(change, e) > 0) return e;
   }
   return -1;
 }
 
-int ContactBasis::first_raising(int leaving) const {
-  // The strength of the leaving edge as a functional of the variables: μR ± T (a positive multiple), or x
-  // itself.
-  const std::size_t v = first_variable(leaving);
+ContactBasis::Ray ContactBasis::ray(int entering) const {
+  const RationalVector change = change_by(entering);
+  // The entering column was multiplied by 2^shift: its strength is that.
+  const mpq_class own = scaled(1, problem_.edge(entering).shift);
+  std::vector<mpq_class> forces;
+  mpq_class largest = 0;
+  for (int component = 0; component < 2 * problem_.contacts(); ++component) {
+    mpq_class force = -force_in(change, component);
+    if (!problem_.is_slack(entering) && component / 2 == entering / 2) {
+      mpq_class share = own;
+      if (component % 2 == 1)
+        share *= entering % 2 == 0 ? problem_.mu(entering / 2) : -problem_.mu(entering / 2);
+      force += share;
+    }
+    largest = std::max(largest, mpq_class(abs(force)));
+    forces.push_back(std::move(force));
+  }
+  Ray ray;
+  for (const mpq_class& force : forces) ray.forces.push_back(mpq_class(force / largest).get_d());
+  ray.grows.assign(static_cast<std::size_t>(problem_.edges()), false);
+  for (const int e : edges_) ray.grows[static_cast<std::size_t>(e)] = sign_of(change, e) < 0;
+  ray.grows[static_cast<std::size_t>(entering)] = true;
+  return ray;
+}
+
+RationalVector ContactBasis::row_of(int edge) const {
+  // μR ± T (a positive multiple of x±), or x itself.
+  const std::size_t v = first_variable(edge);
   std::vector<mpq_class> functional(variables_.size(), 0);
   if (variables_[v].kind == 2) {
     functional[v] = 1;
   } else {
-    functional[v] = scaled(problem_.mu(leaving / 2), full_[v]->shift);
-    functional[v + 1] = scaled(mpq_class(leaving % 2 == 0 ? 1 : -1), full_[v + 1]->shift);
+    functional[v] = scaled(problem_.mu(edge / 2), full_[v]->shift);
+    functional[v + 1] = scaled(mpq_class(edge % 2 == 0 ? 1 : -1), full_[v + 1]->shift);
   }
   mpz_class scale = 1;
   for (const mpq_class& f : functional) scale = lcm(scale, f.get_den());
   std::vector<mpz_class> right;
   for (const mpq_class& f : functional) right.push_back(f.get_num() * (scale / f.get_den()));
-  const RationalVector row = solver_->solve_transposed(right);
+  return solver_->solve_transposed(right);
+}
+
+int ContactBasis::first_raising(int leaving) const {
+  const RationalVector row = row_of(leaving);
   for (int e = 0; e < problem_.edges(); ++e) {
     if (!is_basic(e) && problem_.has_edge(e) && product(row, e) < 0) return e;
   }
   return -1;
+}
+
+std::vector<double> ContactBasis::falling_motion(int leaving) const {
+  return rounded_motion(row_of(leaving), 1, -1);
 }
 
 }  // namespace indet::exact

@@ -10,14 +10,21 @@
 
 namespace indet::exact {
 
-/// What is to be maximised: sign · Σ coefficient · force, of R_α (component 2α) and T_α (component 2α + 1).
-/// Coefficients are taken as they are.
+/// What is to be maximised: sign · Σ coefficient · force, of R_α (component 2α) and T_α (component 2α + 1),
+/// or Σ weight · strength of edges. Coefficients and weights are taken as they are.
 struct Goal {
   std::vector<std::pair<int, double>> terms;  ///< (component, coefficient)
   int sign = 1;
+  std::vector<std::pair<int, double>> strengths = {};  ///< (edge, weight), ascending
 
   Goal(int component, int direction) : terms{{component, 1.0}}, sign(direction) {}
   Goal(std::vector<std::pair<int, double>> sum, int direction) : terms(std::move(sum)), sign(direction) {}
+  /// Σ weight · strength.
+  static Goal of_strengths(std::vector<std::pair<int, double>> sum) {
+    Goal goal(std::vector<std::pair<int, double>>(), 1);
+    goal.strengths = std::move(sum);
+    return goal;
+  }
 };
 
 /// A basis of the exact problem: rank() independent edges; all others have strength 0. The forces x_B = B⁻¹
@@ -32,13 +39,16 @@ class ContactBasis {
 
   /// Whether x_B satisfies all equations, those that are left out as dependent included.
   bool is_balanced() const { return balanced_; }
-  /// If not: whether this contradicts every solution, because an equation that x_B violates is proven to be a
-  /// combination of the independent ones, with another right-hand side.
-  bool proves_contradiction() const;
+  /// If not: what contradicts every solution, if an equation that x_B violates is a combination of the
+  /// independent ones with another right-hand side: a motion, one velocity a row, under which every edge
+  /// rests and the load does work. Nothing if it is not such a combination. Rounded, largest entry 1.
+  std::optional<std::vector<double>> contradiction() const;
   /// The basic edge of smallest number with a negative strength, or −1.
   int first_negative() const;
   /// R_α (component 2α) or T_α (2α + 1), in the scene's own units.
   mpq_class force(int component) const;
+  /// x of an edge, up to load_scale(), which has no part in its sign.
+  int sign_of_strength(int edge) const { return is_basic(edge) ? sign_of(x_, edge) : 0; }
   /// The sum of a goal, without its sign.
   mpq_class sum(const Goal& goal) const;
 
@@ -50,13 +60,26 @@ class ContactBasis {
   Multipliers multipliers(const Goal& goal) const;
   /// The edge of smallest number (not below `first`) with a positive reduced cost, or −1.
   int first_improving(const Goal& goal, const Multipliers& multipliers) const;
+  /// The edges with a negative reduced cost, ascending: at an optimum, those that are 0 wherever the goal is
+  /// as large.
+  std::vector<int> costly(const Goal& goal, const Multipliers& multipliers) const;
 
   /// Entering edge e: the basic edge of smallest number whose strength falls as x_e grows, or −1: then
   /// x_e = 1, x_B = −B⁻¹ A_e is a recession ray.
   int first_blocking(int entering) const;
+  /// That ray: R and T of each contact, and the strength of each edge, up to one positive factor (forces:
+  /// largest entry 1). Rounded; what is 0 exactly is 0.
+  struct Ray {
+    std::vector<double> forces;  ///< 2M
+    std::vector<bool> grows;     ///< of each edge: its strength grows
+  };
+  Ray ray(int entering) const;
   /// Leaving edge e of negative strength: the nonbasic edge of smallest number that can raise it, or −1: then
   /// the problem has no solution (Farkas).
   int first_raising(int leaving) const;
+  /// That proof: a motion, one velocity a row, that no edge resists and under which the load does work.
+  /// Rounded, largest entry 1.
+  std::vector<double> falling_motion(int leaving) const;
 
  private:
   explicit ContactBasis(const ContactProblem& problem) : problem_(problem) {}
@@ -67,9 +90,20 @@ class ContactBasis {
   };
   mpq_class cost(const Variable& variable, const Goal& goal) const;
   mpq_class edge_cost(int edge, const Goal& goal) const;
+  /// Sign of the reduced cost of an edge that is not basic; `scale`: of the multipliers, over which y is.
+  int sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers, const mpz_class& scale) const;
+  /// How x_B falls as the strength of this edge grows.
+  RationalVector change_by(int entering) const;
+  /// Strength of this edge as a functional of the basic variables, solved with B'ᵀ.
+  RationalVector row_of(int edge) const;
+  /// R or T in a solution of B' x' = b'.
+  mpq_class force_in(const RationalVector& x, int component) const;
+  /// A motion of the independent rows, times a sign, on all rows; in addition that of one more.
+  std::vector<double> rounded_motion(const RationalVector& y, int sign, int more_row) const;
   /// Value of variable v of a solution of B' x' = b', with the shift undone.
   mpq_class value(const RationalVector& x, std::size_t v) const;
-  /// Sign of the strength of a basic edge in a solution of B' x' = b'.
+  /// Strength of a basic edge in a solution of B' x' = b', and its sign.
+  mpq_class strength_in(const RationalVector& x, int edge) const;
   int sign_of(const RationalVector& x, int edge) const;
   /// The variable of a basic edge, or of R where both of its contact's edges are basic.
   std::size_t first_variable(int edge) const;

@@ -293,24 +293,39 @@ ContactProblem::ContactProblem(const Packing& packing) {
     }
     contacts_.push_back(std::move(exact));
   }
+  for (int e = 0; e < edges(); ++e) has_edge_.push_back(is_slack(e) || e % 2 == 0 || mu(e / 2) > 0);
   find_independent_rows();
+}
+
+ContactProblem ContactProblem::restricted_to(const std::vector<bool>& open) const {
+  ContactProblem part = *this;
+  for (std::size_t e = 0; e < has_edge_.size(); ++e) part.has_edge_[e] = has_edge_[e] && open[e];
+  part.find_independent_rows();
+  return part;
+}
+
+std::vector<int> ContactProblem::open_edges() const {
+  std::vector<int> open;
+  for (int e = 0; e < edges(); ++e) {
+    if (has_edge(e)) open.push_back(e);
+  }
+  return open;
 }
 
 void ContactProblem::find_independent_rows() {
   std::vector<const IntegerColumn*> columns;
-  for (const Contact& contact : contacts_) {
-    columns.push_back(&contact.normal);
-    if (contact.mu > 0) columns.push_back(&contact.tangential);
+  for (int e = 0; e < edges(); ++e) {
+    if (!has_edge(e)) continue;
+    // Both edges of a contact span what its normal and tangential forces do, whose columns are sparser.
+    const bool has_both = !is_slack(e) && has_edge(e - e % 2) && has_edge(e - e % 2 + 1);
+    columns.push_back(!has_both ? &edge(e) : e % 2 == 0 ? &normal(e / 2) : &tangential(e / 2));
   }
-  for (const IntegerColumn& slack : slacks_) columns.push_back(&slack);
   const PrimeField field(large_prime(0));
   independent_ = ModularLu(field, rows(), columns).pivot_rows();
   row_number_.assign(static_cast<std::size_t>(rows()), -1);
   for (std::size_t k = 0; k < independent_.size(); ++k)
     row_number_[static_cast<std::size_t>(independent_[k])] = static_cast<int>(k);
 }
-
-bool ContactProblem::has_edge(int edge) const { return is_slack(edge) || edge % 2 == 0 || mu(edge / 2) > 0; }
 
 const IntegerColumn& ContactProblem::edge(int edge) const {
   if (is_slack(edge)) return slacks_[static_cast<std::size_t>(edge - 2 * contacts())];
@@ -320,10 +335,7 @@ const IntegerColumn& ContactProblem::edge(int edge) const {
 }
 
 std::vector<int> ContactProblem::choose_basis(std::span<const double> preference) const {
-  std::vector<int> order;
-  for (int e = 0; e < edges(); ++e) {
-    if (has_edge(e)) order.push_back(e);
-  }
+  std::vector<int> order = open_edges();
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return preference[static_cast<std::size_t>(a)] > preference[static_cast<std::size_t>(b)];
   });

@@ -32,11 +32,17 @@ class ContactProblem {
   /// Precondition: find_defect(packing) is empty.
   explicit ContactProblem(const Packing& packing);
 
+  /// The same problem with only those edges, of the ones it has, that are set in `open` (one an edge); the
+  /// others are held at 0. Rows, edges and contacts keep their numbers; the rank may fall.
+  ContactProblem restricted_to(const std::vector<bool>& open) const;
+
   int rows() const { return static_cast<int>(load_.size()); }
   int contacts() const { return static_cast<int>(contacts_.size()); }
   int edges() const { return 2 * contacts() + static_cast<int>(slacks_.size()); }
   bool is_slack(int edge) const { return edge >= 2 * contacts(); }
-  bool has_edge(int edge) const;
+  bool has_edge(int edge) const { return has_edge_[static_cast<std::size_t>(edge)]; }
+  /// The edges that there are, ascending.
+  std::vector<int> open_edges() const;
   /// The row of an equation of a disk (0: force x, 1: force y, 2: torque), wall (0: along the normal, 1:
   /// along the tangent) or the cell (the component of stress), −1 if it reads 0 = 0, the wall is not free,
   /// the component not imposed.
@@ -54,8 +60,8 @@ class ContactProblem {
   /// The same of rows of stress: their divisor over the cell's length.
   double compression_scale() const { return compression_scale_; }
 
-  /// The rank of the equations modulo a prime near 2^62. It is a lower bound of the exact rank, and equals it
-  /// but for an accident of probability below 1e-12.
+  /// The rank of the columns of the edges modulo a prime near 2^62. It is a lower bound of the exact rank,
+  /// and equals it but for an accident of probability below 1e-12.
   int rank() const { return static_cast<int>(independent_.size()); }
   /// rank() rows that are independent (this is certain), ascending; and the place of each row among them, −1
   /// if none.
@@ -95,6 +101,7 @@ class ContactProblem {
   std::vector<Contact> contacts_;
   int first_bound_ = 0;                ///< row
   std::vector<IntegerColumn> slacks_;  ///< of edges 2M, 2M + 1, …
+  std::vector<bool> has_edge_;
   std::vector<mpz_class> load_;
   mpz_class load_scale_ = 1;
   std::vector<int> independent_;

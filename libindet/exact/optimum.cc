@@ -13,11 +13,12 @@ Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> 
   for (;; ++result.pivots) {
     result.basis = basis;
     if (!basis->is_balanced()) {
-      if (basis->proves_contradiction()) result.verdict = Verdict::kInconsistent;
+      if (basis->contradiction()) result.verdict = Verdict::kInconsistent;
       return result;
     }
     const int infeasible = basis->first_negative();
-    const int improving = goal ? basis->first_improving(*goal, basis->multipliers(*goal)) : -1;
+    if (goal) result.multipliers = std::make_shared<ContactBasis::Multipliers>(basis->multipliers(*goal));
+    const int improving = goal ? basis->first_improving(*goal, *result.multipliers) : -1;
     if (infeasible < 0 && improving < 0) {
       result.verdict = Verdict::kOptimal;
       if (goal) result.value = basis->sum(*goal);
@@ -27,6 +28,7 @@ Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> 
     const int partner = leave ? basis->first_raising(infeasible) : basis->first_blocking(improving);
     if (partner < 0) {
       result.verdict = leave ? Verdict::kEmpty : Verdict::kUnbounded;
+      result.edge = leave ? infeasible : improving;
       return result;
     }
     if (result.pivots == pivot_limit) return result;

@@ -22,7 +22,11 @@ struct Optimum {
   Verdict verdict = Verdict::kUndecided;
   mpq_class value;  ///< of the goal's sum itself (not times the sign), if optimal
   int pivots = 0;   ///< 0: the start was it
+  /// Of `basis`: if unbounded, the edge with which the goal grows (ContactBasis::ray); if empty, the one that
+  /// nothing can raise (ContactBasis::falling_motion).
+  int edge = -1;
   std::shared_ptr<const ContactBasis> basis;
+  std::shared_ptr<const ContactBasis::Multipliers> multipliers;  ///< of `basis`, if optimal with a goal
 };
 
 /// Maximises a goal from a basis, by the criss-cross method with least indices (Terlaky,

@@ -153,7 +153,8 @@ class FieldReader {
                                    is(field.name, "neighbour_rule") || is(field.name, "walk_start"));
     const bool tells_itself = field.presence == Presence::kInterval ||
                               field.presence == Presence::kEstimate || field.presence == Presence::kSeed ||
-                              field.presence == Presence::kUnknownBlocks;
+                              field.presence == Presence::kUnknownBlocks ||
+                              field.presence == Presence::kExact || field.presence == Presence::kHairline;
     if (may_lack || may_be_older || tells_itself) return file_.has_attribute(field.group, field.name);
     return is_present(field.presence, ranges_, 1);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -37,6 +38,13 @@ bool is_doubtful(const InteriorPoint& interior, bool is_zero, double scale) {
   return interior.infeasibility > 0.5 * std::abs(interior.slack);
 }
 
+/// Notes a decision that a change of the packing's numbers by this share of them may alter, if it is one.
+void doubt(bool is_one, double change, ForcePolytope& polytope) {
+  if (!is_one) return;
+  polytope.doubtful = true;
+  polytope.hairline = std::fmax(polytope.hairline, std::fmax(change, std::numeric_limits<double>::epsilon()));
+}
+
 /// A full-dimensional set with a point in its interior.
 struct InteriorSet {
   SlopeView view;
@@ -53,12 +61,12 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
     EquilibriumProblem& problem = polytope.problem;
     const NullSpace& null_space = *polytope.null_space;
     polytope.rank_ambiguous = polytope.rank_ambiguous || null_space.ambiguous;
-    polytope.doubtful = polytope.doubtful || null_space.ambiguous;
+    doubt(null_space.ambiguous, null_space.largest_rejected, polytope);
     const auto prove_emptiness = [&](const Eigen::VectorXd& motion) {
       const std::vector<double> guess = motion_on_exact_rows(exact, problem, motion);
       const auto proven = exact::find_falling_motion(exact, guess, closings, tolerance::kExactZero);
       set_motion(packing, exact, proven.value_or(guess), polytope);
-      polytope.doubtful = polytope.doubtful || !proven;
+      doubt(!proven, std::abs(polytope.interior_slack), polytope);
     };
     if (null_space.unbalanced.size() > 0) {
       prove_emptiness(null_space.unbalanced);
@@ -73,9 +81,11 @@ std::optional<InteriorSet> reduce_to_full_dimension(const Packing& packing, cons
         null_space.particular.size() > 0 ? null_space.particular.lpNorm<Eigen::Infinity>() : 0.0;
     const double scale = std::max(1.0, largest);
     const bool is_zero = std::abs(interior.slack) <= tolerance::kImplicitEquality * scale;
-    polytope.doubtful = polytope.doubtful || is_doubtful(interior, is_zero, scale);
+    doubt(is_doubtful(interior, is_zero, scale),
+          std::max(std::abs(interior.slack), interior.infeasibility) / scale, polytope);
     if (!is_zero && interior.slack > 0) {
-      polytope.doubtful = polytope.doubtful || !exact::proves_structure(exact, closings, null_space.rank);
+      doubt(!exact::proves_structure(exact, closings, null_space.rank), null_space.largest_rejected,
+            polytope);
       polytope.interior = view.offset + view.slope * interior.z;
       return InteriorSet{view, interior.z};
     }
@@ -186,7 +196,7 @@ ForcePolytope find_force_polytope(const Packing& packing, const LpOptions& optio
   RecessionRay ray = find_recession_ray(view, options);
   polytope.pivots += ray.pivots;
   ++polytope.solves;
-  polytope.doubtful = polytope.doubtful || ray.infeasibility > ray.noise;
+  doubt(ray.infeasibility > ray.noise, ray.infeasibility, polytope);
   polytope.ray = std::move(ray.x);
   polytope.bounding_multipliers = std::move(ray.multipliers);
   polytope.status = polytope.ray.size() > 0 ? PolytopeStatus::kUnbounded : PolytopeStatus::kBounded;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct ForcePolytope {
   /// Some decision (rank, emptiness, dimension, boundedness) lies within rounding: results may be wrong by
   /// order one.
   bool doubtful = false;
+  /// Then: relative size of a change of the packing's numbers that may alter it, estimated; NaN otherwise.
+  double hairline = std::numeric_limits<double>::quiet_NaN();
   double interior_slack = 0;  ///< t of the interior point (mg): every x is at least this; capped at 1
   Eigen::VectorXd interior;   ///< x of that point (all edges of `problem`)
   Eigen::VectorXd lightest;   ///< x of the state of smallest total normal force (all edges of `problem`)

@@ -12,7 +12,6 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/exact/certificate.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/barrier_ranges.h"
@@ -21,9 +20,11 @@
 #include "libindet/range/enclosure.h"
 #include "libindet/range/estimated_ranges.h"
 #include "libindet/range/exact_ends.h"
+#include "libindet/range/exact_ranges.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/extremal_search.h"
 #include "libindet/range/open_ends.h"
+#include "libindet/range/proven_rays.h"
 #include "libindet/range/reactions.h"
 
 namespace indet {
@@ -51,17 +52,6 @@ class Stopwatch {
   std::map<std::string, double>& seconds_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// Repeats each ray in rational numbers. Where one is not a ray exactly, forces that grow along it are
-/// limited after all, and other values may belong to vertices that are far away.
-bool proves_rays(const Packing& packing, const exact::ContactProblem& exact, const Rows<double>& rays) {
-  if (rays.rows() == 0) return true;
-  for (Eigen::Index q = 0; q < rays.rows(); ++q) {
-    const std::span<const double> ray(&rays(q, 0), static_cast<std::size_t>(rays.cols()));
-    if (!exact::proves_ray(exact, exact::edge_growths(packing, ray), tolerance::kExactZero)) return false;
-  }
-  return true;
-}
 
 /// How the search of a polytope is to be done.
 SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions& options, Method method) {
@@ -216,32 +206,7 @@ void add_states(const Packing& packing, const ForcePolytope& polytope, const Sta
                        interval_options(options, "extremal states"), found);
 }
 
-}  // namespace
-
-MethodChoice choose_method(int contacts, const StateChoice& states) {
-  using Kind = StateChoice::Kind;
-  if (states.kind == Kind::kNone) {
-    if (contacts < kFewestForBarrier) return {Method::kLp, "a small packing"};
-    return {Method::kBarrier, "a large packing, and no extremal states are wanted"};
-  }
-  if (states.kind == Kind::kSolver && !states.within_limit)
-    return {Method::kLp, "the extremal states on which a solver lands are wanted"};
-  if (contacts < kFewestForCentralStates) return {Method::kLp, "extremal states are wanted"};
-  return {Method::kBarrier, "a large packing"};
-}
-
-Formulation choose_formulation(int dim) {
-  constexpr int kCrossOver = 30;
-  return dim <= kCrossOver ? Formulation::kDual : Formulation::kEdge;
-}
-
-AnalyzeOptions options_for(Accuracy accuracy) {
-  AnalyzeOptions options;
-  if (accuracy == Accuracy::kFast) options.states.kind = StateChoice::Kind::kSolver;
-  return options;
-}
-
-ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
+ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& options) {
   StateChoice kept = limited(options.states, packing.contact_count());
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
@@ -297,15 +262,15 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   if (!polytope.central) add_centre(polytope);
   Enclosures enclosures =
       enclose_values(polytope, extrema, reactions.optima, interval_options(options, "enclosures").progress);
-  enclosures.proven = enclosures.proven && proves_rays(packing, *polytope.exact, extrema.rays);
+  enclosures.proven = enclosures.proven && prove_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
-      enclosures.proven && proves_rays(packing, *polytope.exact, reactions.reactions.rays);
+      enclosures.proven && prove_rays(packing, *polytope.exact, reactions.reactions.rays);
   if (enclosures.proven && polytope.status == PolytopeStatus::kUnbounded) {
     // What is promised is relative to loads, which may be far below 1 mg.
     const double gap = 0.01 * tolerance::kCertifiedWidth;
     close_open_ends(packing, contacts, extrema, reactions, {gap, options.threads, {}}, enclosures);
   }
-  if (enclosures.proven && polytope.exact)
+  if (enclosures.proven && polytope.exact && options.exactness != AnalyzeOptions::Exactness::kNowhere)
     settle_exactly(packing, polytope, extrema, reactions.optima, enclosures);
   stopwatch.mark("enclosures");
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
@@ -314,6 +279,104 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   add_smallest_distances(polytope, contacts, options, stopwatch, ranges);
   ranges.seconds = std::move(seconds);
   return ranges;
+}
+
+/// The request, and the equations as double precision sees them: what results say where no more is known.
+ForceRanges equations_alone(const Packing& packing, const ContactRequest& request) {
+  ForcePolytope polytope;
+  polytope.natural = pose_equilibrium(packing);
+  polytope.natural_null_space =
+      std::make_shared<NullSpace>(compute_null_space(polytope.natural.matrix, polytope.natural.load()));
+  polytope.rank_ambiguous = polytope.natural_null_space->ambiguous;
+  ForceRanges ranges;
+  static_cast<ProblemSummary&>(ranges) = summarise(packing, polytope);
+  static_cast<ContactRequest&>(ranges) = request;
+  ranges.vertex.resize(0, 4);
+  return ranges;
+}
+
+bool is_marked(const ForceRanges& ranges) {
+  return ranges.doubtful || ranges.imprecise + ranges.failed + ranges.reactions.uncertain() > 0;
+}
+
+/// The contacts that were asked for, ascending.
+std::vector<int> requested_contacts(const ForceRanges& ranges, const ContactChoice& choice, int contacts) {
+  if (ranges.draws == 0) return chosen_contacts(choice, contacts);
+  std::vector<int> drawn;
+  for (int i = 0; i < contacts; ++i) {
+    if (ranges.drawn[i] > 0) drawn.push_back(i);
+  }
+  return drawn;
+}
+
+}  // namespace
+
+ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
+  using Exactness = AnalyzeOptions::Exactness;
+  const bool may_be_exact = options.exactness != Exactness::kNowhere && !options.estimate &&
+                            options.duals.kind == DualChoice::Kind::kNone;
+  const StateChoice kept = limited(options.states, packing.contact_count());
+  const auto settle = [&](const ForceRanges& found, const std::vector<int>& contacts) {
+    ExactOptions exactly{options.exact_work, options.reactions, options.threads, {}};
+    if (options.progress) {
+      exactly.progress = [&](std::int64_t settled, std::int64_t total) {
+        return options.progress({"exact arithmetic", settled, total, {}});
+      };
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    std::optional<ForceRanges> exact = find_exact_ranges(packing, contacts, kept, found, exactly);
+    if (!exact) return exact;
+    exact->seconds = found.seconds;
+    exact->smallest = found.smallest;
+    exact->seconds["exact arithmetic"] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return exact;
+  };
+  ForceRanges ranges;
+  try {
+    ranges = analyze_in_doubles(packing, options);
+  } catch (const LibraryError&) {
+    // A linear program could not be solved, or rounding decides whether forces balance.
+    if (!may_be_exact) throw;
+    const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
+    ContactRequest request;
+    request.choice = options.contacts.kind;
+    if (request.choice == ContactChoice::Kind::kSample)
+      request.sample_seed = static_cast<std::int64_t>(options.contacts.seed);
+    request.requested = static_cast<int>(contacts.size());
+    std::optional<ForceRanges> exact = settle(equations_alone(packing, request), contacts);
+    if (!exact) throw;
+    return std::move(*exact);
+  }
+  const bool is_asked_for = options.exactness == Exactness::kEverywhere;
+  if (!may_be_exact || ranges.method == Method::kBarrier || !(is_asked_for || is_marked(ranges)))
+    return ranges;
+  std::optional<ForceRanges> exact =
+      settle(ranges, requested_contacts(ranges, options.contacts, packing.contact_count()));
+  return exact ? std::move(*exact) : std::move(ranges);
+}
+
+MethodChoice choose_method(int contacts, const StateChoice& states) {
+  using Kind = StateChoice::Kind;
+  if (states.kind == Kind::kNone) {
+    if (contacts < kFewestForBarrier) return {Method::kLp, "a small packing"};
+    return {Method::kBarrier, "a large packing, and no extremal states are wanted"};
+  }
+  if (states.kind == Kind::kSolver && !states.within_limit)
+    return {Method::kLp, "the extremal states on which a solver lands are wanted"};
+  if (contacts < kFewestForCentralStates) return {Method::kLp, "extremal states are wanted"};
+  return {Method::kBarrier, "a large packing"};
+}
+
+Formulation choose_formulation(int dim) {
+  constexpr int kCrossOver = 30;
+  return dim <= kCrossOver ? Formulation::kDual : Formulation::kEdge;
+}
+
+AnalyzeOptions options_for(Accuracy accuracy) {
+  AnalyzeOptions options;
+  if (accuracy == Accuracy::kFast) options.states.kind = StateChoice::Kind::kSolver;
+  return options;
 }
 
 }  // namespace indet

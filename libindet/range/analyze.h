@@ -23,6 +23,9 @@ enum class Accuracy : std::uint8_t {
   kStandard  ///< canonical extremal states too
 };
 
+/// About two seconds; what is left then stays marked.
+inline constexpr double kUsualExactWork = 2e6;
+
 struct AnalyzeOptions {
   std::optional<Method> method;  ///< nothing: chosen by size and by what is asked for (choose_method)
   double gap = 1e-6;             ///< of kBarrier: IntervalOptions::gap
@@ -41,7 +44,16 @@ struct AnalyzeOptions {
   StateChoice states;          ///< which extremal states the result keeps
   bool solver_states = false;  ///< where it keeps all canonical ones: also tell where the solver landed
                                ///< (ForceRanges::solver_states)
-  int threads = 1;             ///< the results do not depend on it
+  /// Where rational arithmetic takes part, and how much of it (exact_ranges.h), in squares of the number of
+  /// equations, summed over solves.
+  enum class Exactness : std::uint8_t {
+    kNowhere,
+    kWhereNeeded,  ///< single values, then all results, that double precision leaves in doubt
+    kEverywhere
+  };
+  Exactness exactness = Exactness::kWhereNeeded;
+  double exact_work = kUsualExactWork;
+  int threads = 1;  ///< the results do not depend on it
   ProgressCallback progress;
 };
 

@@ -15,6 +15,7 @@ ProblemSummary summarise(const Packing& packing, const ForcePolytope& polytope) 
   summary.blocks = is_split ? static_cast<int>(polytope.blocks.size()) : polytope.parts.count;
   if (summary.blocks < 0) summary.blocks_reason = polytope.parts.reason;
   summary.rank_ambiguous = polytope.rank_ambiguous;
+  summary.hairline = polytope.hairline;
   summary.rank_gap = null_space.rank_gap();
   summary.smallest_accepted = null_space.smallest_accepted;
   summary.largest_rejected = null_space.largest_rejected;

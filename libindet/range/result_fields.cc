@@ -72,6 +72,10 @@ bool is_present(Presence presence, const ForceRanges& ranges, std::int64_t row_c
       return ranges.duals.are_kept();
     case Presence::kReason:
       return !ranges.reason.empty();
+    case Presence::kExact:
+      return ranges.exact;
+    case Presence::kHairline:
+      return !std::isnan(ranges.hairline);
     case Presence::kUnknownBlocks:
       return !ranges.blocks_reason.empty();
     case Presence::kRandom:

@@ -48,6 +48,8 @@ enum class Presence : std::uint8_t {
   kInterval,       ///< where values are known to intervals of an asked-for width
   kDuals,          ///< where duals are kept
   kReason,         ///< where the method was chosen by the program
+  kExact,          ///< where rational arithmetic found all of them
+  kHairline,       ///< where a decision lies within rounding
   kUnknownBlocks,  ///< where the number of blocks is not known
   kRandom,         ///< where that goes to a neighbour by chance
   kWhereRows       ///< where the table has rows
@@ -106,6 +108,15 @@ void visit_problem(Part& r, Visit& visit) {
               Extent::kOne, Extent::kOne, Presence::kUnknownBlocks},
         r.blocks_reason);
   attribute("rank_ambiguous", "1 if the rank lies within rounding", r.rank_ambiguous);
+  visit(Field{"/equilibrium", "exact", "1", "1 if all results are those of rational arithmetic",
+              FieldSource::kRounding, Extent::kOne, Extent::kOne, Presence::kExact},
+        r.exact);
+  visit(
+      Field{
+          "/equilibrium", "hairline", "1",
+          "relative change of the packing's numbers that may alter a decision about the polytope, estimated",
+          FieldSource::kRounding, Extent::kOne, Extent::kOne, Presence::kHairline},
+      r.hairline);
   attribute("rank_gap", "smallest accepted over largest rejected singular value, estimated", r.rank_gap,
             FieldSource::kRounding);
   attribute("smallest_accepted", "smallest singular value that counts, estimated", r.smallest_accepted,

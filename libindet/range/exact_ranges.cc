@@ -1,0 +1,461 @@
+#include "libindet/range/exact_ranges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "libindet/base/constants.h"
+#include "libindet/base/error.h"
+#include "libindet/base/random.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/base/worker_team.h"
+#include "libindet/exact/body_motion.h"
+#include "libindet/exact/certificate.h"
+#include "libindet/exact/structure.h"
+#include "libindet/polytope/motion_rows.h"
+#include "libindet/range/drop_states.h"
+#include "libindet/range/sensitivity.h"
+
+namespace indet {
+namespace {
+
+using exact::ContactBasis;
+using exact::ContactProblem;
+using exact::Goal;
+using exact::Optimum;
+using exact::Verdict;
+using SharedBasis = std::shared_ptr<const ContactBasis>;
+
+constexpr int kLongestWalk = 10000;
+
+/// The work was over.
+struct Unsettled {};
+
+std::span<const double> view_of(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+Eigen::VectorXd rounded_state(const ContactBasis& basis, int contacts) {
+  Eigen::VectorXd state(2 * contacts);
+  for (int component = 0; component < state.size(); ++component)
+    state[component] = exact::nearest(basis.force(component));
+  return state;
+}
+
+std::int32_t append(Rows<double>& rows, const Eigen::VectorXd& row) {
+  rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+  rows.bottomRows(1) = row.transpose();
+  return static_cast<std::int32_t>(rows.rows() - 1);
+}
+
+class ExactFinder {
+ public:
+  ExactFinder(const Packing& packing, const std::vector<int>& contacts, const StateChoice& kept,
+              const ForceRanges& found, const ExactOptions& options)
+      : packing_(packing),
+        contacts_(contacts),
+        found_(found),
+        options_(options),
+        is_canonical_(kept.kind == StateChoice::Kind::kCanonical),
+        natural_(pose_equilibrium(packing)),
+        problem_(packing),
+        work_(problem_, options.most_work),
+        problem_summary_(found),
+        sums_(options.reactions ? reaction_sums(packing) : std::vector<ReactionSum>()) {
+    const Eigen::Index count = packing.contact_count();
+    static_cast<SearchWork&>(extrema_) = found;
+    extrema_.claim.setConstant(count, 4, Outcome::kNotRequested);
+    extrema_.vertex.setConstant(count, 4, -1);
+    extrema_.ray.setConstant(count, 4, -1);
+    extrema_.unique.setZero(count, 4);
+    extrema_.clear(count);
+    extrema_.state_kind = is_canonical_ ? StateChoice::Kind::kCanonical : StateChoice::Kind::kSolver;
+    extrema_.states.resize(0, 2 * count);
+    extrema_.rays.resize(0, 2 * count);
+    extrema_.active.resize(0, 0);
+    extrema_.determined = 0;
+    for (auto* table : {&extrema_.dual_residual, &extrema_.ray_residual}) table->setConstant(count, 4, kNaN);
+    for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
+      table->setConstant(count, 4, kNaN);
+    enclosures_.proven = true;
+    const auto sums = static_cast<Eigen::Index>(sums_.size());
+    reactions_.body.resize(sums);
+    reactions_.component.resize(sums);
+    for (Eigen::Index k = 0; k < sums; ++k) {
+      reactions_.body[k] = sums_[static_cast<std::size_t>(k)].body.code();
+      reactions_.component[k] = sums_[static_cast<std::size_t>(k)].component;
+    }
+    for (auto* table : {&reactions_.value, &reactions_.lower, &reactions_.upper})
+      table->setConstant(sums, 2, kNaN);
+    reactions_.outcome.setConstant(sums, 2, Outcome::kNotRequested);
+    for (auto* table : {&reactions_.vertex, &reactions_.ray}) table->setConstant(sums, 2, -1);
+    for (auto* rows : {&reactions_.states, &reactions_.rays}) rows->resize(0, 2 * count);
+  }
+
+  /// Throws Unsettled.
+  ForceRanges run() {
+    problem_summary_.exact = true;
+    problem_summary_.rank = problem_.rank();
+    problem_summary_.nullity = problem_summary_.unknowns - problem_.rank();
+    if (!exact::proves_rank(problem_)) throw Unsettled();
+    structure_ = exact::find_structure(problem_, first_basis(), work_);
+    if (structure_.verdict == Verdict::kUndecided) throw Unsettled();
+    if (structure_.verdict == Verdict::kOptimal) {
+      describe();
+      find_all();
+      for (const int i : contacts_) {
+        for (const int minimum : {kMinR, kMinT}) extrema_.determined += is_determined(i, minimum) ? 2 : 0;
+      }
+      write_states();
+      for (Eigen::Index k = 0; k < reactions_.count(); ++k) {
+        for (const int end : {0, 1}) find_reaction(k, end);
+        report(2);
+      }
+    } else {
+      describe_motion();
+    }
+    ForceRanges ranges = assemble(packing_, problem_summary_, found_, extrema_, enclosures_);
+    ranges.reactions = std::move(reactions_);
+    return ranges;
+  }
+
+ private:
+  /// From the edges that the first state of double precision has, if there is any.
+  SharedBasis first_basis() const {
+    std::vector<double> preference(static_cast<std::size_t>(problem_.edges()), 0);
+    if (found_.states.rows() > 0) {
+      const Eigen::VectorXd state = found_.states.row(0).transpose();
+      preference = exact::edge_strengths(packing_, view_of(state));
+    }
+    return ContactBasis::create(problem_, problem_.choose_basis(preference));
+  }
+
+  void describe() {
+    const ContactProblem& open = *structure_.open;
+    if (!exact::proves_rank(open)) throw Unsettled();
+    problem_summary_.dim = structure_.dim;
+    problem_summary_.blocks = structure_.parts;
+    problem_summary_.blocks_reason.clear();
+    problem_summary_.status = structure_.dim == 0  ? PolytopeStatus::kPoint
+                              : structure_.bounded ? PolytopeStatus::kBounded
+                                                   : PolytopeStatus::kUnbounded;
+    problem_summary_.motion.resize(0, 3);
+    problem_summary_.wall_motion.resize(0, 2);
+    problem_summary_.cell_motion.resize(0, 2);
+    problem_summary_.bound_multipliers.resize(0);
+    last_ = structure_.state;
+    Random random(1);  // as those of OptimalityChecker
+    for (const int e : open.open_edges()) generic_.emplace_back(e, -random.uniform(1, 2));
+    for (int i = 0; i < open.contacts(); ++i) normal_forces_.emplace_back(2 * i, 1.0);
+  }
+
+  void describe_motion() {
+    const auto proven = exact::find_falling_motion(problem_, structure_.motion, {}, tolerance::kExactZero);
+    if (!proven) throw Unsettled();
+    const exact::BodyMotion motion = exact::on_bodies(packing_, problem_, *proven);
+    problem_summary_.status = PolytopeStatus::kEmpty;
+    problem_summary_.dim = -1;
+    problem_summary_.blocks = 0;
+    problem_summary_.blocks_reason.clear();
+    problem_summary_.motion = motion.disks;
+    problem_summary_.wall_motion = motion.walls;
+    problem_summary_.cell_motion = motion.cell;
+    problem_summary_.bound_multipliers = motion.bounds;
+  }
+
+  /// Objectives whose search begins at the same state of double precision, or at none.
+  struct Task {
+    int state = -1;
+    std::vector<std::pair<int, int>> objectives;  ///< contact, column
+  };
+
+  /// What is found of one objective.
+  struct Answer {
+    int contact = 0, column = 0;
+    Optimum optimum;
+    bool unique = false;
+    SharedBasis state;  ///< of the extremal state that is kept
+    int pivots = 0;     ///< of all walks
+  };
+
+  std::vector<Task> list_tasks() const {
+    std::map<int, Task> tasks;
+    for (const int i : contacts_) {
+      for (int column = 0; column < 4; ++column) {
+        const int state = found_.vertex.rows() > i ? found_.vertex(i, column) : -1;
+        tasks[state].state = state;
+        tasks[state].objectives.emplace_back(i, column);
+      }
+    }
+    std::vector<Task> list;
+    for (auto& [state, task] : tasks) {
+      // Of no state there may be many, which had better not wait for each other.
+      constexpr std::size_t kLargest = 8;
+      for (std::size_t k = 0; k < task.objectives.size(); k += kLargest) {
+        const auto first = task.objectives.begin() + static_cast<std::ptrdiff_t>(k);
+        const auto count = static_cast<std::ptrdiff_t>(std::min(kLargest, task.objectives.size() - k));
+        list.push_back({state, {first, first + count}});
+      }
+    }
+    return list;
+  }
+
+  /// In rounds of fixed size, so that the work is counted in the same way for any number of threads.
+  void find_all() {
+    constexpr std::size_t kRound = 16;
+    const std::vector<Task> tasks = list_tasks();
+    WorkerTeam team(options_.threads);
+    for (std::size_t first = 0; first < tasks.size(); first += kRound) {
+      if (work_.is_over()) throw Unsettled();
+      const std::size_t count = std::min(kRound, tasks.size() - first);
+      std::vector<std::vector<Answer>> answers(count);
+      const int pivots = work_.pivots(kLongestWalk);
+      team.run(static_cast<std::int64_t>(count), [&](int, std::int64_t k) {
+        answers[static_cast<std::size_t>(k)] = work_on(tasks[first + static_cast<std::size_t>(k)], pivots);
+      });
+      for (const auto& group : answers) {
+        for (const Answer& answer : group) store(answer);
+        report(std::ssize(group));
+      }
+    }
+  }
+
+  std::vector<Answer> work_on(const Task& task, int pivots) const {
+    const SharedBasis start = task.state >= 0 ? basis_of_found(task.state) : structure_.state;
+    std::vector<Answer> answers;
+    for (const auto& [contact, column] : task.objectives)
+      answers.push_back(find(contact, column, start ? start : structure_.state, pivots));
+    return answers;
+  }
+
+  /// The basis of a state of double precision, its half-planes left out; nothing if there is none.
+  SharedBasis basis_of_found(int row) const {
+    const Eigen::VectorXd state = found_.states.row(row).transpose();
+    std::vector<double> preference = exact::edge_strengths(packing_, view_of(state));
+    for (const std::int32_t e : found_.active.row(row)) {
+      if (e >= 0) preference[static_cast<std::size_t>(e)] = -kInfinity;
+    }
+    const ContactProblem& open = *structure_.open;
+    return ContactBasis::create(open, open.choose_basis(preference));
+  }
+
+  Answer find(int contact, int column, const SharedBasis& start, int pivots) const {
+    Answer answer;
+    answer.contact = contact;
+    answer.column = column;
+    const Goal goal = goal_of(contact, column);
+    answer.optimum = exact::maximise(*structure_.open, start, goal, pivots);
+    answer.pivots = answer.optimum.pivots;
+    if (answer.optimum.verdict != Verdict::kOptimal) return answer;
+    answer.state = answer.optimum.basis;
+    const ContactProblem face = face_of(*structure_.open, answer.optimum, goal);
+    answer.unique = is_point(face);
+    if (answer.unique) return answer;
+    const SharedBasis on_face = ContactBasis::create(face, answer.state->edges());
+    std::vector<std::pair<int, double>> outside;
+    for (const int e : face.open_edges()) {
+      if (!on_face->is_basic(e)) outside.emplace_back(e, 1.0);
+    }
+    const Optimum most = exact::maximise(face, on_face, Goal::of_strengths(std::move(outside)), pivots);
+    answer.pivots += most.pivots + 1;
+    answer.unique = most.verdict == Verdict::kOptimal && most.value == 0;
+    if (is_canonical_ && !answer.unique) answer.state = canonical_state(face, on_face, pivots, answer.pivots);
+    return answer;
+  }
+
+  static Goal goal_of(int contact, int column) {
+    const bool is_maximum = column == kMaxR || column == kMaxT;
+    return {2 * contact + (column >= kMinT ? 1 : 0), is_maximum ? 1 : -1};
+  }
+
+  /// The problem whose states are those at which the goal is as large as at this optimum.
+  static ContactProblem face_of(const ContactProblem& problem, const Optimum& optimum, const Goal& goal) {
+    std::vector<bool> open(static_cast<std::size_t>(problem.edges()), true);
+    for (const int e : optimum.basis->costly(goal, *optimum.multipliers))
+      open[static_cast<std::size_t>(e)] = false;
+    return problem.restricted_to(open);
+  }
+
+  static bool is_point(const ContactProblem& face) {
+    return static_cast<int>(face.open_edges().size()) == face.rank();
+  }
+
+  /// Of all states of a face that of smallest ΣR, and of these that of the smallest generic sum. Nothing if
+  /// the limit of pivots was reached.
+  SharedBasis canonical_state(const ContactProblem& face, const SharedBasis& start, int limit,
+                              int& pivots) const {
+    const Goal lightness(normal_forces_, -1);
+    const Optimum light = exact::maximise(face, start, lightness, limit);
+    pivots += light.pivots + 1;
+    if (light.verdict != Verdict::kOptimal) return nullptr;
+    const ContactProblem lightest = face_of(face, light, lightness);
+    std::vector<int> edges = light.basis->edges();
+    if (!is_point(lightest)) {
+      const Optimum chosen = exact::maximise(lightest, ContactBasis::create(lightest, edges),
+                                             Goal::of_strengths(generic_), limit);
+      pivots += chosen.pivots + 1;
+      if (chosen.verdict != Verdict::kOptimal) return nullptr;
+      edges = chosen.basis->edges();
+    }
+    return ContactBasis::create(*structure_.open, std::move(edges));
+  }
+
+  void store(const Answer& answer) {
+    work_.add(answer.pivots);
+    const Optimum& optimum = answer.optimum;
+    const int contact = answer.contact;
+    const int column = answer.column;
+    extrema_.pivots += answer.pivots;
+    extrema_.dual_residual(contact, column) = 0;
+    if (optimum.verdict == Verdict::kUnbounded) {
+      extrema_.claim(contact, column) = Outcome::kUnbounded;
+      extrema_.ray_residual(contact, column) = 0;
+      const std::vector<double> ray = optimum.basis->ray(optimum.edge).forces;
+      const auto [entry, is_new] = rays_.emplace(ray, static_cast<std::int32_t>(extrema_.rays.rows()));
+      if (is_new) append(extrema_.rays, Eigen::Map<const Eigen::VectorXd>(ray.data(), std::ssize(ray)));
+      extrema_.ray(contact, column) = entry->second;
+      return;
+    }
+    if (optimum.verdict != Verdict::kOptimal || !answer.state) throw Unsettled();
+    extrema_.claim(contact, column) = Outcome::kOptimal;
+    extrema_.unique(contact, column) = answer.unique ? 1 : 0;
+    const int row = row_of_state(answer.state);
+    extrema_.vertex(contact, column) = row;
+    const exact::Enclosure bounds = exact::enclose(optimum.value);
+    enclosures_.lower(contact, column) = bounds.lower;
+    enclosures_.upper(contact, column) = bounds.upper;
+    enclosures_.sensitivity(contact, column) = sensitivity_to_normals(
+        natural_, motion_of(*optimum.multipliers), SceneForces(states_[static_cast<std::size_t>(row)]));
+  }
+
+  /// y at an optimum, one entry an equation of natural_.
+  Eigen::VectorXd motion_of(const ContactBasis::Multipliers& multipliers) const {
+    const mpz_class scale = multipliers.scale * multipliers.y.denominator;
+    const ContactProblem& open = *structure_.open;
+    std::vector<double> rows(static_cast<std::size_t>(open.rows()), 0);
+    for (std::size_t k = 0; k < open.independent_rows().size(); ++k) {
+      mpq_class y(multipliers.y.numerator[k], scale);
+      y.canonicalize();
+      rows[static_cast<std::size_t>(open.independent_rows()[k])] = y.get_d();
+    }
+    return motion_on_equations(open, natural_, rows);
+  }
+
+  /// Whether both extrema of a component are the same.
+  bool is_determined(int contact, int minimum) const {
+    for (const int column : {minimum, minimum + 1}) {
+      if (extrema_.claim(contact, column) != Outcome::kOptimal) return false;
+    }
+    const int component = 2 * contact + (minimum == kMinT ? 1 : 0);
+    const auto at = [&](int column) {
+      return bases_[static_cast<std::size_t>(extrema_.vertex(contact, column))]->force(component);
+    };
+    return at(minimum) == at(minimum + 1);
+  }
+
+  int row_of_state(const SharedBasis& basis) {
+    const auto [entry, is_new] = numbers_.emplace(basis->edges(), static_cast<int>(states_.size()));
+    if (is_new) {
+      bases_.push_back(basis);
+      states_.push_back(rounded_state(*basis, packing_.contact_count()));
+    }
+    return entry->second;
+  }
+
+  /// In the order in which values first point to them.
+  void write_states() {
+    const auto count = static_cast<Eigen::Index>(states_.size());
+    extrema_.states.resize(count, 2 * packing_.contact_count());
+    extrema_.active.resize(count, structure_.dim);
+    std::vector<std::int32_t> number(states_.size(), -1);
+    std::int32_t next_row = 0;
+    for (std::int32_t& vertex : extrema_.vertex.reshaped<Eigen::RowMajor>()) {
+      if (vertex < 0) continue;
+      std::int32_t& row = number[static_cast<std::size_t>(vertex)];
+      if (row < 0) {
+        row = next_row++;
+        extrema_.states.row(row) = states_[static_cast<std::size_t>(vertex)].transpose();
+        Eigen::Index next = 0;
+        for (const int e : structure_.open->open_edges()) {
+          if (!bases_[static_cast<std::size_t>(vertex)]->is_basic(e)) extrema_.active(row, next++) = e;
+        }
+      }
+      vertex = row;
+    }
+    note_states(extrema_.states, extrema_.vertex, StateChecker(packing_), extrema_);
+  }
+
+  void find_reaction(Eigen::Index k, int end) {
+    const Eigen::VectorXd& coefficients = sums_[static_cast<std::size_t>(k)].coefficients;
+    std::vector<std::pair<int, double>> terms;
+    for (int c = 0; c < coefficients.size(); ++c) {
+      if (coefficients[c] != 0) terms.emplace_back(c, coefficients[c]);
+    }
+    const Optimum optimum = exact::maximise(
+        *structure_.open, last_, Goal(std::move(terms), end == 1 ? 1 : -1), work_.pivots(kLongestWalk));
+    work_.add(optimum.pivots);
+    extrema_.pivots += optimum.pivots;
+    Reactions& r = reactions_;
+    if (optimum.verdict == Verdict::kUnbounded) {
+      r.outcome(k, end) = Outcome::kUnbounded;
+      r.value(k, end) = r.lower(k, end) = r.upper(k, end) = end == 1 ? kInfinity : -kInfinity;
+      r.ray(k, end) = append(r.rays, Eigen::Map<const Eigen::VectorXd>(
+                                         optimum.basis->ray(optimum.edge).forces.data(), r.rays.cols()));
+      return;
+    }
+    if (optimum.verdict != Verdict::kOptimal) throw Unsettled();
+    last_ = optimum.basis;
+    const exact::Enclosure bounds = exact::enclose(optimum.value);
+    r.outcome(k, end) = Outcome::kOptimal;
+    r.value(k, end) = exact::nearest(optimum.value);
+    r.lower(k, end) = bounds.lower;
+    r.upper(k, end) = bounds.upper;
+    r.vertex(k, end) = append(r.states, rounded_state(*optimum.basis, packing_.contact_count()));
+  }
+
+  void report(std::int64_t settled) {
+    settled_ += settled;
+    const std::int64_t total = 4 * std::ssize(contacts_) + 2 * reactions_.count();
+    if (options_.progress && !options_.progress(settled_, total)) throw Interrupted();
+  }
+
+  const Packing& packing_;
+  const std::vector<int>& contacts_;
+  const ForceRanges& found_;
+  const ExactOptions& options_;
+  bool is_canonical_;
+  EquilibriumProblem natural_;
+  ContactProblem problem_;
+  exact::Work work_;
+  ProblemSummary problem_summary_;
+  exact::Structure structure_;
+  std::vector<ReactionSum> sums_;
+  std::vector<std::pair<int, double>> generic_;        ///< a weight an edge
+  std::vector<std::pair<int, double>> normal_forces_;  ///< of all contacts
+  SharedBasis last_;                                   ///< where the next reaction starts
+  std::map<std::vector<int>, int> numbers_;            ///< of the edges of a basis: its state
+  std::vector<SharedBasis> bases_;                     ///< of each state
+  std::vector<Eigen::VectorXd> states_;
+  std::map<std::vector<double>, std::int32_t> rays_;
+  std::int64_t settled_ = 0;
+  Extrema extrema_;
+  Enclosures enclosures_;
+  Reactions reactions_;
+};
+
+}  // namespace
+
+std::optional<ForceRanges> find_exact_ranges(const Packing& packing, const std::vector<int>& contacts,
+                                             const StateChoice& kept, const ForceRanges& found,
+                                             const ExactOptions& options) {
+  try {
+    return drop_states(ExactFinder(packing, contacts, kept, found, options).run(), kept);
+  } catch (const Unsettled&) {
+    return {};
+  }
+}
+
+}  // namespace indet
