@@ -18,6 +18,7 @@ struct AnalysisArguments {
   std::string accuracy = "standard";
   std::string contacts = "all";
   std::uint64_t seed = 1;
+  std::optional<double> exact_budget;
   std::optional<int> calibrate;     ///< of --accuracy estimate
   std::string reactions = "auto";   ///< of analyze
   std::string duals = "none";       ///< of analyze

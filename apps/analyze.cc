@@ -13,7 +13,6 @@
 #include "apps/command.h"
 #include "apps/condition.h"
 #include "apps/estimate_arguments.h"
-#include "apps/exact_analysis.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
@@ -86,8 +85,7 @@ int run(const AnalyzeCommand& options, const Context& context) {
     throw UsageError(
         "--formulation has no effect with --method pivoting-tableau, which solves no linear programs");
   require_memory_for_duals(packing, analysis);
-  const ForceRanges ranges =
-      is_exact(options.arguments) ? analyze_exactly(packing, analysis, context) : analyze(packing, analysis);
+  const ForceRanges ranges = analyze(packing, analysis);
 
   Provenance provenance;
   provenance.arguments = context.arguments;

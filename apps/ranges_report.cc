@@ -230,21 +230,36 @@ void print_quality(const ForceRanges& ranges) {
   if (ranges.duals.are_kept()) say("{}\n", describe_duals(ranges.duals));
 }
 
+/// What lies within rounding, and who decided it.
+void print_doubts(const ForceRanges& ranges) {
+  const bool is_hairline = !std::isnan(ranges.hairline);
+  if (ranges.rank_ambiguous) {
+    say("The rank is ambiguous: rounding does not tell whether a singular value is zero (smallest that was "
+        "counted: {:.1e}, largest that was not: {:.1e}).",
+        ranges.smallest_accepted, ranges.largest_rejected);
+  } else if (ranges.doubtful || is_hairline) {
+    say("Whether forces balance, or stay bounded, depends here on the last digits of the packing's "
+        "numbers{}.",
+        is_hairline ? fmt::format(": a relative change of about {:.0e} may alter it", ranges.hairline) : "");
+  }
+  if (ranges.doubtful) {
+    say(" Every result is marked imprecise; --accuracy exact decides for the numbers as they are.\n");
+  } else if (ranges.exact && (ranges.rank_ambiguous || is_hairline)) {
+    say(" Exact arithmetic decided, for the numbers as they are.\n");
+  } else if (ranges.exact) {
+    say("All results are those of exact arithmetic.\n");
+  } else if (ranges.rank_ambiguous || is_hairline) {
+    say("\n");
+  }
+}
+
 }  // namespace
 
 void print_report(const Packing& packing, const ForceRanges& ranges, const std::string& output) {
   say("{}, {}: {} unknown forces, {} equations, rank {}, nullity {}\n", describe_disks(packing),
       counted(packing.contact_count(), "contact"), ranges.unknowns, ranges.equations, ranges.rank,
       ranges.nullity);
-  if (ranges.rank_ambiguous) {
-    say("The rank is ambiguous: rounding does not tell whether a singular value is zero (smallest that was "
-        "counted: {:.1e}, largest that was not: {:.1e}). Every result is marked imprecise.\n",
-        ranges.smallest_accepted, ranges.largest_rejected);
-  }
-  if (ranges.doubtful && !ranges.rank_ambiguous) {
-    say("Whether forces balance, or stay bounded, depends here on the last digits of the packing's numbers. "
-        "Every result is marked imprecise.\n");
-  }
+  print_doubts(ranges);
   if (ranges.status == PolytopeStatus::kEmpty) {
     print_motion(packing, ranges);
     say("\nwritten to {}\n", output);

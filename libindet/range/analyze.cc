@@ -17,6 +17,7 @@
 #include "libindet/range/barrier_ranges.h"
 #include "libindet/range/central_states.h"
 #include "libindet/range/distance_search.h"
+#include "libindet/range/drop_states.h"
 #include "libindet/range/enclosure.h"
 #include "libindet/range/estimated_ranges.h"
 #include "libindet/range/exact_ends.h"
@@ -315,7 +316,17 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   using Exactness = AnalyzeOptions::Exactness;
   const bool may_be_exact = options.exactness != Exactness::kNowhere && !options.estimate &&
                             options.duals.kind == DualChoice::Kind::kNone;
+  const bool is_asked_for = may_be_exact && options.exactness == Exactness::kEverywhere;
   const StateChoice kept = limited(options.states, packing.contact_count());
+  AnalyzeOptions in_doubles = options;
+  if (is_asked_for) {
+    // Exact searches start from states, so that all of them are kept on the way, and linear programs have
+    // them.
+    in_doubles.states = {
+        .kind = kept.kind == StateChoice::Kind::kNone ? StateChoice::Kind::kSolver : kept.kind,
+        .within_limit = false};
+    if (!in_doubles.method) in_doubles.method = Method::kLp;
+  }
   const auto settle = [&](const ForceRanges& found, const std::vector<int>& contacts) {
     ExactOptions exactly{options.exact_work, options.reactions, options.threads, {}};
     if (options.progress) {
@@ -334,7 +345,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
   };
   ForceRanges ranges;
   try {
-    ranges = analyze_in_doubles(packing, options);
+    ranges = analyze_in_doubles(packing, in_doubles);
   } catch (const LibraryError&) {
     // A linear program could not be solved, or rounding decides whether forces balance.
     if (!may_be_exact) throw;
@@ -348,12 +359,13 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     if (!exact) throw;
     return std::move(*exact);
   }
-  const bool is_asked_for = options.exactness == Exactness::kEverywhere;
-  if (!may_be_exact || ranges.method == Method::kBarrier || !(is_asked_for || is_marked(ranges)))
-    return ranges;
+  const bool wants_exact =
+      is_asked_for || (may_be_exact && ranges.method != Method::kBarrier && is_marked(ranges));
+  if (!wants_exact) return ranges;
   std::optional<ForceRanges> exact =
       settle(ranges, requested_contacts(ranges, options.contacts, packing.contact_count()));
-  return exact ? std::move(*exact) : std::move(ranges);
+  if (exact) return std::move(*exact);
+  return is_asked_for ? drop_states(std::move(ranges), kept) : ranges;
 }
 
 MethodChoice choose_method(int contacts, const StateChoice& states) {

@@ -52,8 +52,8 @@ struct AnalyzeOptions {
     kEverywhere
   };
   Exactness exactness = Exactness::kWhereNeeded;
-  double exact_work = kUsualExactWork;
-  int threads = 1;  ///< the results do not depend on it
+  double exact_work = kUsualExactWork;  ///< infinite: no limit
+  int threads = 1;                      ///< the results do not depend on it
   ProgressCallback progress;
 };
 

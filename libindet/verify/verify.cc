@@ -7,8 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/exact/contact_problem.h"
 #include "libindet/range/promise.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/distances_check.h"
@@ -16,6 +18,7 @@
 #include "libindet/verify/duals_check.h"
 #include "libindet/verify/enclosed_check.h"
 #include "libindet/verify/estimate_check.h"
+#include "libindet/verify/exact_answers.h"
 #include "libindet/verify/hull_check.h"
 #include "libindet/verify/kept_states_check.h"
 #include "libindet/verify/motion_check.h"
@@ -36,12 +39,13 @@ class Verifier {
         ranges_(ranges),
         progress_(progress),
         problem_(packing),
+        exact_(packing, ranges),
         loads_(loads_at_contacts(packing)) {}
 
   Verification run() {
     check_problem();
     check_kept_states(ranges_, compare_);
-    if (ranges_.status == PolytopeStatus::kEmpty) check_motion(packing_, ranges_, problem_, compare_);
+    if (ranges_.status == PolytopeStatus::kEmpty) check_motion(packing_, ranges_, problem_, exact_, compare_);
     check_states();
     check_rays();
     check_objectives();
@@ -50,9 +54,14 @@ class Verifier {
     check_enclosed(packing_, ranges_, progress_, compare_);
     if (ranges_.duals.are_kept()) check_duals(ranges_, problem_, compare_);
     check_smallest_distances(packing_, ranges_, problem_, compare_);
-    check_hull(packing_, ranges_, problem_, compare_);
+    if (ranges_.exact && ranges_.status != PolytopeStatus::kEmpty) {
+      exact_.check_structure(compare_);
+      check_equal_ends();
+    } else {
+      check_hull(packing_, ranges_, problem_, compare_);
+    }
     name_the_rest();
-    check_reactions(packing_, ranges_, problem_, compare_);
+    check_reactions(packing_, ranges_, problem_, exact_, compare_);
     return compare_.result();
   }
 
@@ -75,7 +84,26 @@ class Verifier {
     }
   }
 
+  /// Values that are the same in every state have the same bounds. That others have, too, is rounding.
+  void check_equal_ends() {
+    std::int64_t same = 0;
+    for (Eigen::Index i = 0; i < ranges_.outcome.rows(); ++i) {
+      for (const int minimum : {kMinR, kMinT}) {
+        const bool is_same = ranges_.lower(i, minimum) == ranges_.lower(i, minimum + 1) &&
+                             ranges_.upper(i, minimum) == ranges_.upper(i, minimum + 1);
+        same += is_same ? 2 : 0;
+      }
+    }
+    compare_.require(ranges_.determined >= 0 && ranges_.determined <= same,
+                     "determined: {} is stored, at most {} is right", ranges_.determined, same);
+  }
+
   void check_nullity() {
+    if (ranges_.exact) {
+      // Rounding may hide the rank, and double precision then sees another one.
+      compare_.equal_count(ranges_.rank, exact::ContactProblem(packing_).rank(), "rank");
+      return;
+    }
     if (ranges_.unknowns <= tolerance::kMostForPrograms) {
       compare_.equal_count(ranges_.nullity, problem_.nullity(), "nullity");
       return;
@@ -114,7 +142,8 @@ class Verifier {
       tight_.push_back(std::move(tight));
     }
     const double imbalance = residuals_.empty() ? 0 : compare_.result().worst_imbalance;
-    const double rounding = tolerance::kAgreement * std::max(problem_.internal_unit(), imbalance);
+    const double rounding =
+        tolerance::kAgreement * std::max({problem_.internal_unit(), imbalance, largest_scale_});
     const bool keeps_all =
         ranges_.state_kind != StateChoice::Kind::kNone && ranges_.states_of == StateChoice::Contacts::kAll;
     compare_.require(
@@ -192,7 +221,13 @@ class Verifier {
                      "{}: dual residual {} of a certified value", place,
                      ranges_.dual_residual(contact, column));
     check_width(contact, column, place);
+    if (ranges_.exact) {
+      const double next = std::nextafter(ranges_.lower(contact, column), kInfinity);
+      compare_.require(ranges_.upper(contact, column) <= next,
+                       "{}: exact, but its bounds are no neighbouring doubles", place);
+    }
     const double gap = optimality_gap(component, sign, vertex);
+    if (gap > allowed_gap() && exact_.agree_on_value(contact, column)) return;
     compare_.add_optimum(gap);
     compare_.require(gap <= allowed_gap(), "{}: the value {} is not optimal (gap {})", place, value, gap);
   }
@@ -260,6 +295,9 @@ class Verifier {
     compare_.equal_count(ranges_.certified, certain, "certified");
     compare_.equal_count(ranges_.imprecise, counts[static_cast<int>(Outcome::kImprecise)], "imprecise");
     compare_.equal_count(ranges_.failed, counts[static_cast<int>(Outcome::kFailed)], "failed");
+    compare_.require(
+        !ranges_.exact || ranges_.imprecise + ranges_.failed + ranges_.reactions.uncertain() == 0,
+        "exact: yet some results are uncertain");
     const auto also = ranges_.reactions.certified();
     compare_.require(!ranges_.doubtful || certain + also == 0,
                      "doubtful: yet {} objectives and {} ends of reactions are certified", certain, also);
@@ -326,7 +364,8 @@ class Verifier {
     if (ranges_.status == PolytopeStatus::kEmpty && ranges_.doubtful)
       compare_.call_unsolved("that no contact forces are admissible is in doubt");
     compare_.leave_unchecked(
-        "rank_gap, smallest_accepted, largest_rejected, rank_ambiguous, doubtful of /equilibrium (they "
+        "rank_gap, smallest_accepted, largest_rejected, rank_ambiguous, doubtful, hairline of /equilibrium "
+        "(they "
         "belong to the factorisation of the analysis)");
     if (ranges_.choice == ContactChoice::Kind::kSample && ranges_.draws == 0)
       compare_.leave_unchecked("sample_seed (contacts are not drawn again)");
@@ -356,6 +395,7 @@ class Verifier {
   const ForceRanges& ranges_;
   const ProgressCallback& progress_;
   RebuiltProblem problem_;
+  ExactAnswers exact_;
   Eigen::VectorXd loads_;  ///< at each contact (range/promise.h)
   Comparisons compare_;
   double largest_scale_ = 0;             ///< of the states' residuals

@@ -28,15 +28,15 @@ TEST(Extremes, NoFixedSceneIsSilentlyWrong) {
   Tally total;
   for (const Scene& scene : scenes) total.add(judge(scene));
   EXPECT_EQ(total.wrong, 0);
-  // Marks are for what is in doubt, not a way out.
-  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+  // Marks are for what exact arithmetic does not settle either.
+  EXPECT_GT(total.right, 200 * (total.marked + total.contained));
 }
 
 TEST(Extremes, NoRandomSceneIsSilentlyWrong) {
   Tally total;
   for (std::uint64_t seed = 0; seed < 300; ++seed) total.add(judge(extremes::random_scene(seed, 3)));
   EXPECT_EQ(total.wrong, 0);
-  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+  EXPECT_GT(total.right, 100 * (total.marked + total.contained));
 }
 
 /// Loads by chance seldom cancel where nothing is fixed; then the scene is empty, and must be called so.
@@ -50,7 +50,7 @@ TEST(Extremes, NoSceneWithLoadedWallsIsSilentlyWrong) {
     total.add(judge(scene));
   }
   EXPECT_EQ(total.wrong, 0);
-  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+  EXPECT_GT(total.right, 100 * (total.marked + total.contained));
 }
 
 TEST(Extremes, NoSceneWithLeversOrFixedDisksIsSilentlyWrong) {
@@ -67,7 +67,7 @@ TEST(Extremes, NoSceneWithLeversOrFixedDisksIsSilentlyWrong) {
   }
   EXPECT_GT(scenes, 180);
   EXPECT_EQ(total.wrong, 0);
-  EXPECT_GT(total.right, 2 * (total.marked + total.contained));
+  EXPECT_GT(total.right, 100 * (total.marked + total.contained));
 }
 
 /// A column between two walls that touch each disk: the walls can press as hard as they like, so that every

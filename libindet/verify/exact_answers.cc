@@ -1,0 +1,50 @@
+#include "libindet/verify/exact_answers.h"
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "libindet/exact/structure.h"
+
+namespace indet {
+
+const ExactCheck& ExactAnswers::check() const {
+  if (!check_) check_ = check_exactly(packing_, ranges_);
+  return *check_;
+}
+
+bool ExactAnswers::agree_on_value(int contact, int column) const {
+  return ranges_.exact && check().lower(contact, column) == ranges_.lower(contact, column) &&
+         check().upper(contact, column) == ranges_.upper(contact, column);
+}
+
+bool ExactAnswers::agree_on_reaction(Eigen::Index row, int end) const {
+  return ranges_.exact && check().reactions.lower(row, end) == ranges_.reactions.lower(row, end) &&
+         check().reactions.upper(row, end) == ranges_.reactions.upper(row, end);
+}
+
+void ExactAnswers::check_structure(Comparisons& compare) const {
+  const exact::ContactProblem problem(packing_);
+  std::vector<double> preference(static_cast<std::size_t>(problem.edges()), 0);
+  if (ranges_.states.rows() > 0) {
+    const Eigen::VectorXd state = ranges_.states.row(0).transpose();
+    preference =
+        exact::edge_strengths(packing_, std::span(state.data(), static_cast<std::size_t>(state.size())));
+  }
+  exact::Work work(problem, std::numeric_limits<double>::infinity());
+  const exact::Structure found = exact::find_structure(
+      problem, exact::ContactBasis::create(problem, problem.choose_basis(preference)), work);
+  if (!compare.require(found.verdict == exact::Verdict::kOptimal, "status {}, but no state is admissible",
+                       to_string(ranges_.status)))
+    return;
+  const PolytopeStatus status = found.dim == 0  ? PolytopeStatus::kPoint
+                                : found.bounded ? PolytopeStatus::kBounded
+                                                : PolytopeStatus::kUnbounded;
+  compare.require(ranges_.status == status, "status: {} is stored, {} is right", to_string(ranges_.status),
+                  to_string(status));
+  compare.equal_count(ranges_.dim, found.dim, "dim");
+  compare.equal_count(ranges_.blocks, found.parts, "blocks");
+}
+
+}  // namespace indet
