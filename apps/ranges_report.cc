@@ -29,6 +29,7 @@ struct Firmness {
   int half_open = 0;            ///< values with an enclosure that is infinite on one side or on both
   double widest_enclosure = 0;  ///< of the others
   double sensitivity = 0;       ///< largest first-order change of a value per radian by which normals turn
+  int unlimited = 0;            ///< values for which no bound of it is known
 };
 
 Firmness firmness(const ForceRanges& ranges) {
@@ -42,8 +43,11 @@ Firmness firmness(const ForceRanges& ranges) {
         result.widest_enclosure = std::max(result.widest_enclosure, width);
       else
         ++result.half_open;
-      const double moved = ranges.sensitivity(i, column) / ranges.force_unit;
-      result.sensitivity = std::fmax(result.sensitivity, moved);
+      const double moved = ranges.sensitivity.value(i, column) / ranges.force_unit;
+      if (std::isinf(moved))
+        ++result.unlimited;
+      else
+        result.sensitivity = std::fmax(result.sensitivity, moved);
     }
   }
   return result;
@@ -107,6 +111,7 @@ nlohmann::json report_to_json(const Packing& packing, const ForceRanges& ranges,
                {"widest_enclosure", json_number(firmness(ranges).widest_enclosure)},
                {"infinite_enclosures", firmness(ranges).half_open},
                {"sensitivity", json_number(firmness(ranges).sensitivity)},
+               {"infinite_sensitivities", firmness(ranges).unlimited},
                {"mean_delta_R", json_number(delta_R.mean)},
                {"max_delta_R", json_number(delta_R.max)},
                {"mean_delta_T", json_number(delta_T.mean)},
@@ -209,9 +214,14 @@ void print_quality(const ForceRanges& ranges) {
   else if (firm.values > 0)
     say("proven bounds of a value: none that are finite on both sides\n");
   constexpr double kTurn = 1e-8;
-  if (firm.values > 0)
-    say("if contact directions are known to 1e-8 rad, every value is good to {:.1e} mg\n",
-        kTurn * firm.sensitivity);
+  const std::string unlimited =
+      firm.unlimited > 0 ? fmt::format("; {} of {} may change by any amount", firm.unlimited, firm.values)
+                         : "";
+  if (firm.unlimited < firm.values)
+    say("if contact directions are known to 1e-8 rad, {} value is good to {:.1e} mg{}\n",
+        firm.unlimited > 0 ? "a" : "every", kTurn * firm.sensitivity, unlimited);
+  else if (firm.values > 0)
+    say("if contact directions are known to 1e-8 rad, every value may change by any amount\n");
   const int unique = ranges.unique.cast<int>().sum();
   const bool had_choice = !ranges.reason.empty() && (ranges.method == Method::kBarrier ||
                                                      ranges.state_kind == StateChoice::Kind::kNone);

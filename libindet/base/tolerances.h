@@ -200,6 +200,18 @@ inline constexpr double kPolytopeEdge = 1e-9;
 /// not limit its length.
 inline constexpr double kLengthRate = 1e-9;
 
+/// Dual feasible bases of one value that are looked at for its sensitivity; where there are more, it has
+/// none.
+inline constexpr int kMostDualBases = 64;
+/// And it has none where the table of these bases has more entries: dimensions times further tight rows.
+inline constexpr int kMostDualEntries = 20000;
+/// Steps by which the rows with a positive reduced cost are found, at most.
+inline constexpr int kMostDualSteps = 1000;
+
+/// A contact whose relative velocity in a motion is up to this, relative to its largest entry (at least 1),
+/// rests: forces there move no value, however large.
+inline constexpr double kRestingContact = 1e-11;
+
 /// An inequality whose slack changes by up to this along an edge of the polytope keeps holding with equality.
 inline constexpr double kHeldRate = 1e-9;
 

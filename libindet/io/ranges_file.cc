@@ -131,6 +131,9 @@ class FieldReader {
     if constexpr (requires { value.rows(); }) {
       if (field.presence == Presence::kWhereRows && !file_.has(path_of(field))) {
         resize(value, 0, size(field.columns));
+      } else if (is(field.name, "sensitivity_claim") && !file_.has(path_of(field))) {
+        resize(value, size(field.rows), size(field.columns));
+        value.setZero();  // of an earlier version: no claim
       } else {
         read(field, value);
       }

@@ -103,8 +103,8 @@ class BarrierSearch {
     extrema.active.resize(0, std::max(0, polytope_.dim));
     extrema.gap = options_.gap;
     Enclosures& enclosures = result_.enclosures;
-    for (auto* table : {&enclosures.lower, &enclosures.upper, &enclosures.sensitivity})
-      table->setConstant(count, 4, kNaN);
+    for (auto* table : {&enclosures.lower, &enclosures.upper}) table->setConstant(count, 4, kNaN);
+    enclosures.sensitivity.clear(count);
     enclosures.proven = !polytope_.doubtful;
     Reactions& reactions = result_.reactions;
     const auto sums = static_cast<Eigen::Index>(sums_.size());
@@ -262,7 +262,7 @@ class BarrierSearch {
       result_.enclosures.lower(target.row, target.column) =
           target.column == kMinR || target.column == kMaxR ? std::max(lower, 0.0) : lower;
       result_.enclosures.upper(target.row, target.column) = upper;
-      result_.enclosures.sensitivity(target.row, target.column) = interval.sensitivity;
+      result_.enclosures.sensitivity.set(target.row, target.column, {interval.sensitivity});
     }
     result_.extrema.pivots += interval.iterations;
     result_.extrema.solves += interval.iterations > 0 ? 1 : 0;

@@ -14,7 +14,7 @@
 #include "libindet/range/barrier_ranges.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/proof_bases.h"
-#include "libindet/range/sensitivity.h"
+#include "libindet/range/sensitivity_bounds.h"
 #include "libindet/range/state_table.h"
 
 namespace indet {
@@ -28,12 +28,13 @@ class CentralEncloser {
         central_(*polytope.central),
         extrema_(extrema),
         progress_(progress),
-        first_(polytope.problem.first_unknowns()) {}
+        first_(polytope.problem.first_unknowns()),
+        sensitivity_(polytope, extrema.value) {}
 
   Enclosures run(std::span<const SumAtOptimum> sums) {
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
-    for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
-      table->setConstant(count, 4, kNaN);
+    for (auto* table : {&enclosures_.lower, &enclosures_.upper}) table->setConstant(count, 4, kNaN);
+    enclosures_.sensitivity.clear(count);
     enclosures_.proven = !polytope_.doubtful;
     enclose_proofs();
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -70,12 +71,10 @@ class CentralEncloser {
   }
 
   /// h̃ at a basis of one block, added to `costs`.
-  void add_reduced_costs(const Functional& f, std::size_t number, const Vertex& vertex,
+  void add_reduced_costs(const Eigen::VectorXd& reduced, std::size_t block, const Basis& basis,
                          Eigen::VectorXd& costs) const {
-    const PolytopeBlock& block = polytope_.blocks[number];
-    const Eigen::VectorXd reduced = -vertex.multipliers(objective_on(block, f));
     for (Eigen::Index k = 0; k < reduced.size(); ++k)
-      costs[block.edges[static_cast<std::size_t>(vertex.basis[static_cast<std::size_t>(k)])]] +=
+      costs[polytope_.blocks[block].edges[static_cast<std::size_t>(basis[static_cast<std::size_t>(k)])]] +=
           std::max(0.0, reduced[k]);
   }
 
@@ -111,14 +110,19 @@ class CentralEncloser {
             const Functional f = functional(proof.contact, proof.column);
             if (f.on_edges.empty()) continue;
             Eigen::VectorXd costs = Eigen::VectorXd::Zero(problem_.unknowns());
-            add_reduced_costs(f, basis.block, basis.vertex, costs);
+            const Eigen::VectorXd reduced =
+                -basis.vertex.multipliers(objective_on(polytope_.blocks[basis.block], f));
+            add_reduced_costs(reduced, basis.block, basis.vertex.basis, costs);
             const int row = extrema_.vertex(proof.contact, proof.column);
             if (row < 0 && !at_vertex)
               at_vertex = point_at(problem_.units.scene(state_at(polytope_, basis.block, basis.vertex)));
             const Point& point = row < 0 ? *at_vertex : stored_point(row);
             const std::vector<double> y = multipliers(f, costs);
+            const Sensitivity sensitivity = sensitivity_.at_vertex(
+                proof.contact, proof.column, basis.block, basis.vertex, reduced, point.forces,
+                [&](const Eigen::VectorXd& other) { return motion_of(multipliers(f, other)); });
             store(proof.contact, proof.column, central_.equations->enclose(f.on_edges, point.x, y),
-                  sensitivity_of(y, point.forces));
+                  sensitivity);
           }
         });
   }
@@ -133,31 +137,35 @@ class CentralEncloser {
 
   void enclose_determined(Eigen::Index i, int column) {
     const Functional f = functional(i, column);
-    if (f.on_edges.empty()) return store(i, column, {0, 0}, 0);  // closed throughout F
+    if (f.on_edges.empty())  // closed throughout F
+      return store(i, column, {0, 0}, sensitivity_.closed(i, column));
     const std::vector<double> y = multipliers(f, Eigen::VectorXd::Zero(problem_.unknowns()));
     if (!lightest_) lightest_ = problem_.units.scene(problem_.state(polytope_.lightest));
-    store(i, column, central_.equations->enclose_everywhere(f.on_edges, y), sensitivity_of(y, *lightest_));
+    store(i, column, central_.equations->enclose_everywhere(f.on_edges, y),
+          sensitivity_.everywhere(i, column, motion_of(y), *lightest_));
   }
 
-  double sensitivity_of(const std::vector<double>& y, const SceneForces& forces) const {
-    return sensitivity_to_normals(problem_, on_equations(problem_, central_.structure, y), forces);
+  /// That of the maximum, one entry an equation.
+  Eigen::VectorXd motion_of(const std::vector<double>& y) const {
+    return -on_equations(problem_, central_.structure, y);
   }
 
-  void store(Eigen::Index i, int column, const barrier::ValueBounds& least, double sensitivity) {
+  void store(Eigen::Index i, int column, const barrier::ValueBounds& least, const Sensitivity& sensitivity) {
     const auto [lower, upper] = value_bounds(least, sign_of(column), problem_);
     const double stored = extrema_.value(i, column);
     const double least_possible =
         column == kMinR || column == kMaxR ? 0 : -kInfinity;  // contacts do not pull
     enclosures_.lower(i, column) = std::min(stored, std::max(lower, least_possible));
     enclosures_.upper(i, column) = std::max(stored, upper);
-    enclosures_.sensitivity(i, column) = sensitivity;
+    enclosures_.sensitivity.set(i, column, sensitivity);
   }
 
   SumBounds enclose_sum(const SumAtOptimum& sum) const {
     const Functional f = sum_of_forces(problem_, sum.coefficients).opposite();
     Eigen::VectorXd costs = Eigen::VectorXd::Zero(problem_.unknowns());
     for (const auto& [block, basis] : sum.bases) {
-      add_reduced_costs(f, block, locate_vertex(polytope_.blocks[block].view, basis), costs);
+      const Vertex vertex = locate_vertex(polytope_.blocks[block].view, basis);
+      add_reduced_costs(-vertex.multipliers(objective_on(polytope_.blocks[block], f)), block, basis, costs);
     }
     const std::vector<double> y = multipliers(f, costs);
     const barrier::ValueBounds least = sum.bases.empty()
@@ -175,6 +183,7 @@ class CentralEncloser {
   const StageProgress& progress_;
   std::int64_t done_ = 0;   ///< proofs that have been read
   std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
+  SensitivityBounds sensitivity_;
   Enclosures enclosures_;
   std::optional<Point> stored_;  ///< of row `stored_row_` of the states
   int stored_row_ = -1;

@@ -12,12 +12,13 @@
 #include "libindet/barrier/lexicographic_vertex.h"
 #include "libindet/base/random.h"
 #include "libindet/base/rounding_bounds.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/range/attained_values.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/lock_step_run.h"
-#include "libindet/range/sensitivity.h"
+#include "libindet/range/sensitivity_bounds.h"
 
 namespace indet {
 namespace {
@@ -51,7 +52,8 @@ class StateSearch {
         problem_(polytope.problem),
         central_(*polytope.central),
         options_(options),
-        found_(found) {
+        found_(found),
+        sensitivity_(polytope, found.extrema.value) {
     Random random(1);
     for (int k = 0; k < problem_.unknowns(); ++k) {
       normal_.push_back(problem_.edge(k).R);
@@ -217,8 +219,19 @@ class StateSearch {
     // Rounding of the state can be more than the interval is wide.
     stored_lower = std::min(stored_lower, value);
     stored_upper = std::max(stored_upper, value);
-    enclosures.sensitivity(target.contact, target.column) =
-        sensitivity_to_normals(problem_, on_equations(problem_, central_.structure, vertex.y), forces);
+    enclosures.sensitivity.set(target.contact, target.column, sensitivity(target, vertex, forces));
+  }
+
+  Sensitivity sensitivity(const WantedState& target, const barrier::LexicographicVertex& vertex,
+                          const SceneForces& forces) const {
+    const Eigen::VectorXd motion = -on_equations(problem_, central_.structure, vertex.y);
+    const double largest = *std::max_element(vertex.x.begin(), vertex.x.end());
+    const auto tight = std::count_if(vertex.x.begin(), vertex.x.end(), [&](double x) {
+      return x <= tolerance::kTightHalfPlane * std::max(1.0, largest);
+    });
+    if (vertex.is_unique && tight == std::ssize(vertex.closed))
+      return sensitivity_.at_point(target.contact, target.column, motion, forces);
+    return {sensitivity_to_normals(problem_, motion, forces)};
   }
 
   const Packing& packing_;
@@ -227,6 +240,7 @@ class StateSearch {
   const CentralPolytope& central_;
   const IntervalOptions& options_;
   BarrierRanges& found_;
+  SensitivityBounds sensitivity_;
   std::vector<double> normal_, generic_;  ///< g and h
   std::vector<WantedState> targets_;
   std::vector<std::optional<barrier::LexicographicVertex>> vertices_;  ///< of each target

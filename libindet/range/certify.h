@@ -19,7 +19,7 @@ struct Certified {
   bool doubtful = false;
   Table4<double> value;         ///< ±inf where unbounded, NaN where not found.
   Table4<double> lower, upper;  ///< Enclosure of the value; infinite where nothing is proven.
-  Table4<double> sensitivity;   ///< Enclosures::sensitivity.
+  Sensitivities sensitivity;
   Table4<Outcome> outcome;
   Table4<double> primal_residual, dual_residual;
   /// Objectives by outcome; `certified` are optimal, unbounded or enclosed.

@@ -69,7 +69,7 @@ void enclose_determined(const Packing& packing, const ForcePolytope& polytope, c
       ranges.extrema.claim(contact, column) = is_proven ? Outcome::kEnclosed : Outcome::kFailed;
       ranges.enclosures.lower(contact, column) = lower;
       ranges.enclosures.upper(contact, column) = upper;
-      ranges.enclosures.sensitivity(contact, column) = interval.sensitivity;
+      ranges.enclosures.sensitivity.set(contact, column, {interval.sensitivity});
     }
     if (options.progress && !options.progress(++done, static_cast<std::int64_t>(forces.size())))
       throw Interrupted();

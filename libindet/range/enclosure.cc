@@ -14,7 +14,7 @@
 #include "libindet/range/equation_bounds.h"
 #include "libindet/range/functional.h"
 #include "libindet/range/proof_bases.h"
-#include "libindet/range/sensitivity.h"
+#include "libindet/range/sensitivity_bounds.h"
 #include "libindet/range/state_table.h"
 
 namespace indet {
@@ -35,15 +35,16 @@ class Encloser {
         extrema_(extrema),
         progress_(progress),
         first_(polytope.problem.first_unknowns()),
-        equations_(polytope) {
+        equations_(polytope),
+        sensitivity_(polytope, extrema.value) {
     bound_states();
   }
 
   Enclosures run(std::span<const SumAtOptimum> sums) {
     const auto count = static_cast<Eigen::Index>(problem_.contacts.size());
     inner_.setConstant(count, 4, -kInfinity);
-    for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
-      table->setConstant(count, 4, kNaN);
+    for (auto* table : {&enclosures_.lower, &enclosures_.upper}) table->setConstant(count, 4, kNaN);
+    enclosures_.sensitivity.clear(count);
     read_proofs();
     bound_strengths();
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -117,19 +118,19 @@ class Encloser {
     costs_.resize(proofs.size());
     for_each_basis(polytope_, proofs, [&](const ProofBasis& basis, std::span<const std::size_t> numbers) {
       std::optional<SceneForces> forces;
-      StateBound bound;
+      std::optional<StateBound> bound;
       for (const std::size_t k : numbers) {
         const auto [i, column] = std::pair(proofs[k].contact, proofs[k].column);
         const Functional f = functional(i, column);
         costs_[k] = reduced_costs(f, basis.block, basis.vertex);
+        if (!forces) forces = problem_.units.scene(state_at(polytope_, basis.block, basis.vertex));
+        enclosures_.sensitivity.set(
+            i, column,
+            sensitivity_.at_vertex(i, column, basis.block, basis.vertex, -costs_[k], *forces,
+                                   [&](const Eigen::VectorXd& costs) { return motion_of(f, costs); }));
         if (extrema_.vertex(i, column) >= 0) continue;
-        if (!forces) {
-          forces = problem_.units.scene(state_at(polytope_, basis.block, basis.vertex));
-          bound = bound_of(problem_.units.internal(*forces));
-        }
-        inner_(i, column) = from_below(f, bound);
-        enclosures_.sensitivity(i, column) =
-            sensitivity_of(multipliers(f, proof_of_(i, column)), forces->value());
+        if (!bound) bound = bound_of(problem_.units.internal(*forces));
+        inner_(i, column) = from_below(f, *bound);
       }
     });
   }
@@ -263,21 +264,24 @@ class Encloser {
     return value - kWiden * (slack + state.share * std::abs(value - middle)) - kTiny;
   }
 
-  double sensitivity_of(const Eigen::VectorXd& y, const Eigen::VectorXd& forces) const {
+  /// y with Aᵀ y = f + costs, one entry an equation of the problem.
+  Eigen::VectorXd motion_of(const Functional& f, const Eigen::VectorXd& costs) const {
+    Eigen::VectorXd y = multipliers(f, -1);
+    for (int k = 0; k < costs.size(); ++k) add_edge(k, costs[k], y);
+    return on_problem(y);
+  }
+  Eigen::VectorXd on_problem(const Eigen::VectorXd& y) const {
     Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem_.equations());
     for (std::size_t k = 0; k < equations_.rows().size(); ++k)
       motion[equations_.rows()[k]] = y[static_cast<Eigen::Index>(k)];
-    return sensitivity_to_normals(problem_, motion, SceneForces(forces));
+    return motion;
   }
 
-  /// Of a determined value whose state is not kept: the one that all of them share.
-  void read_lightest(Eigen::Index i, int column, const Functional& f, const Eigen::VectorXd& y) {
-    if (!lightest_) {
-      lightest_ = problem_.units.scene(problem_.state(polytope_.lightest));
-      lightest_bound_ = bound_of(problem_.units.internal(*lightest_));
-    }
-    inner_(i, column) = from_below(f, lightest_bound_);
-    enclosures_.sensitivity(i, column) = sensitivity_of(y, lightest_->value());
+  /// The state of determined values: the one that all of them share.
+  void read_lightest() {
+    if (lightest_) return;
+    lightest_ = problem_.units.scene(problem_.state(polytope_.lightest));
+    lightest_bound_ = bound_of(problem_.units.internal(*lightest_));
   }
 
   void enclose(Eigen::Index i, int column) {
@@ -288,17 +292,19 @@ class Encloser {
     double outer = 0;
     const Functional f = functional(i, column);
     if (f.on_edges.empty()) {  // closed throughout F: exactly 0
-      enclosures_.sensitivity(i, column) = 0;
+      enclosures_.sensitivity.set(i, column, sensitivity_.closed(i, column));
     } else {
       const bool is_determined = proof_of_(i, column) < 0;
       const Eigen::VectorXd y = multipliers(f, proof_of_(i, column));
       outer = from_above(f, y);
-      if (row >= 0) {
-        inner_(i, column) = from_below(f, states_[static_cast<std::size_t>(row)]);
-        enclosures_.sensitivity(i, column) = sensitivity_of(y, extrema_.states.row(row).transpose());
-      } else if (is_determined) {
-        read_lightest(i, column, f, y);
+      if (is_determined) {
+        read_lightest();
+        enclosures_.sensitivity.set(i, column, sensitivity_.everywhere(i, column, on_problem(y), *lightest_));
       }
+      if (row >= 0)
+        inner_(i, column) = from_below(f, states_[static_cast<std::size_t>(row)]);
+      else if (is_determined)
+        inner_(i, column) = from_below(f, lightest_bound_);
       inner = inner_(i, column);
       // The same bound from the other side holds for every state.
       if (is_determined) inner = std::max(inner, -from_above(f.opposite(), -y));
@@ -340,6 +346,7 @@ class Encloser {
   Enclosures enclosures_;
   std::vector<int> first_;  ///< of each contact its first unknown, −1 if it is open
   EquationBounds equations_;
+  SensitivityBounds sensitivity_;
   std::vector<StateBound> states_;
   StateBound centre_;
   Eigen::VectorXd margin_;              ///< slack of the centre at each edge
@@ -360,8 +367,9 @@ Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
   if (polytope.central) return enclose_by_centre(polytope, extrema, sums, progress);
   if (polytope.status != PolytopeStatus::kEmpty) return Encloser(polytope, extrema, progress).run(sums);
   Enclosures none;
-  for (auto* table : {&none.lower, &none.upper, &none.sensitivity})
-    table->setConstant(static_cast<Eigen::Index>(polytope.problem.contacts.size()), 4, kNaN);
+  const auto count = static_cast<Eigen::Index>(polytope.problem.contacts.size());
+  for (auto* table : {&none.lower, &none.upper}) table->setConstant(count, 4, kNaN);
+  none.sensitivity.clear(count);
   none.proven = !polytope.doubtful;
   return none;
 }

@@ -10,6 +10,7 @@
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/extrema.h"
 #include "libindet/range/outcome.h"
+#include "libindet/range/sensitivity.h"
 
 namespace indet {
 
@@ -30,9 +31,7 @@ struct SumBounds {
 /// scene's units; NaN where there is no extremal state.
 struct Enclosures {
   Table4<double> lower, upper;
-  /// How far the value moves, at most and to first order, when every normal turns by a small angle, over that
-  /// angle (force per radian).
-  Table4<double> sensitivity;
+  Sensitivities sensitivity;
   /// All that the enclosures rest on is proven: nothing about F is in doubt, some admissible state is known,
   /// and a polytope called bounded is. Where not, no enclosure holds.
   bool proven = false;

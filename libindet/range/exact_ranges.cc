@@ -78,8 +78,8 @@ class ExactFinder {
     extrema_.active.resize(0, 0);
     extrema_.determined = 0;
     for (auto* table : {&extrema_.dual_residual, &extrema_.ray_residual}) table->setConstant(count, 4, kNaN);
-    for (auto* table : {&enclosures_.lower, &enclosures_.upper, &enclosures_.sensitivity})
-      table->setConstant(count, 4, kNaN);
+    for (auto* table : {&enclosures_.lower, &enclosures_.upper}) table->setConstant(count, 4, kNaN);
+    enclosures_.sensitivity.clear(count);
     enclosures_.proven = true;
     const auto sums = static_cast<Eigen::Index>(sums_.size());
     reactions_.body.resize(sums);
@@ -327,8 +327,20 @@ class ExactFinder {
     const exact::Enclosure bounds = exact::enclose(optimum.value);
     enclosures_.lower(contact, column) = bounds.lower;
     enclosures_.upper(contact, column) = bounds.upper;
-    enclosures_.sensitivity(contact, column) = sensitivity_to_normals(
-        natural_, motion_of(*optimum.multipliers), SceneForces(states_[static_cast<std::size_t>(row)]));
+    enclosures_.sensitivity.set(contact, column, sensitivity(answer, states_[static_cast<std::size_t>(row)]));
+  }
+
+  /// As double precision found it, if it saw the same; else that of this state and this motion, of perhaps
+  /// several.
+  Sensitivity sensitivity(const Answer& answer, const Eigen::VectorXd& state) const {
+    const auto [contact, column] = std::pair(answer.contact, answer.column);
+    const Sensitivities& known = found_.sensitivity;
+    const bool is_known = !found_.doubtful && known.value.rows() > contact &&
+                          found_.outcome.rows() > contact && is_certified(found_.outcome(contact, column)) &&
+                          !std::isnan(known.value(contact, column));
+    if (is_known)
+      return {known.value(contact, column), static_cast<SensitivityClaim>(known.claim(contact, column))};
+    return {sensitivity_to_normals(natural_, motion_of(*answer.optimum.multipliers), SceneForces(state))};
   }
 
   /// y at an optimum, one entry an equation of natural_.

@@ -189,7 +189,10 @@ void visit_certified(Part& r, Visit& visit) {
         r.upper);
   table("sensitivity", "force/radian",
         "how far the value moves at most, to first order, when every normal turns, per angle",
-        FieldSource::kProof, r.sensitivity);
+        FieldSource::kProof, r.sensitivity.value);
+  table("sensitivity_claim", "1",
+        "of sensitivity: 0 that of one of perhaps several solutions, 1 a bound, 2 exact", FieldSource::kProof,
+        r.sensitivity.claim);
   table("primal_residual", "mg", "violation of equilibrium and contact conditions by the extremal state",
         FieldSource::kRounding, r.primal_residual);
   table("dual_residual", "1", "largest reduced cost of the wrong sign", FieldSource::kRounding,

@@ -27,6 +27,7 @@
 #include "libindet/verify/predictions_check.h"
 #include "libindet/verify/reactions_check.h"
 #include "libindet/verify/rebuilt_problem.h"
+#include "libindet/verify/sensitivity_check.h"
 #include "libindet/verify/sparse_optimality.h"
 
 namespace indet {
@@ -185,6 +186,7 @@ class Verifier {
     compare_.require(std::isnan(value) ||
                          (ranges_.lower(contact, column) <= value && value <= ranges_.upper(contact, column)),
                      "{}: the value {} is not within its bounds", place, value);
+    check_sensitivity(ranges_, contact, column, place, compare_);
     if (std::isinf(value)) {
       const int ray = ranges_.ray(contact, column);
       compare_.require(value == sign * std::abs(value), "{}: wrong sign of infinity", place);
@@ -382,13 +384,14 @@ class Verifier {
           "that values are optimal, as far as bounds of a force are so close that both seem to be reached "
           "(--exact checks it)");
     }
-    compare_.leave_unchecked(
-        ranges_.duals.are_kept()
-            ? "lower, upper of contacts without multipliers, unique, sensitivity, dual_residual of /ranges "
-              "(--exact checks lower and upper)"
-            : "lower, upper, unique, sensitivity, dual_residual of /ranges (multipliers of the linear "
-              "programs "
-              "are not stored; --exact checks lower and upper)");
+    compare_.leave_unchecked(ranges_.duals.are_kept()
+                                 ? "lower, upper of contacts without multipliers, unique, sensitivity, "
+                                   "sensitivity_claim, dual_residual of /ranges "
+                                   "(--exact checks lower and upper)"
+                                 : "lower, upper, unique, sensitivity, sensitivity_claim, dual_residual of "
+                                   "/ranges (multipliers of the linear "
+                                   "programs "
+                                   "are not stored; --exact checks lower and upper)");
   }
 
   const Packing& packing_;

@@ -39,7 +39,7 @@ class Samples(unittest.TestCase):
             self.assertIsNotNone(thing[()])
 
         self.file.visititems(check)
-        self.assertEqual(len(found), 53 + 10, found)  # ten of /VTKHDF are not links to others
+        self.assertEqual(len(found), 54 + 10, found)  # ten of /VTKHDF are not links to others
 
     def test_root(self):
         self.assertEqual(self.file.attrs["Conventions"], "H5MD-1.1 indet-1")
@@ -115,6 +115,7 @@ class Samples(unittest.TestCase):
         self.equal("ranges/primal_residual", 1e-15 * (10 * i + j), "<f8")
         self.equal("ranges/dual_residual", -1e-16 * (10 * i + j), "<f8")
         self.equal("ranges/sensitivity", 0.5 * (10 * i + j), "<f8")
+        self.equal("ranges/sensitivity_claim", (i + j) % 3, "u1")
         self.equal("ranges/outcome", (i + j) % 5, "u1")
         self.assertEqual(
             h5py.check_enum_dtype(self.file["ranges/outcome"].dtype),

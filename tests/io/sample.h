@@ -131,7 +131,7 @@ inline ForceRanges sample_ranges() {
   ranges.upper.resize(kContacts, 4);
   ranges.primal_residual.resize(kContacts, 4);
   ranges.dual_residual.resize(kContacts, 4);
-  ranges.sensitivity.resize(kContacts, 4);
+  ranges.sensitivity.clear(kContacts);
   ranges.outcome.resize(kContacts, 4);
   ranges.unique.resize(kContacts, 4);
   ranges.vertex.resize(kContacts, 4);
@@ -146,7 +146,8 @@ inline ForceRanges sample_ranges() {
       ranges.upper(i, j) = 300 + 10 * i + j;
       ranges.primal_residual(i, j) = 1e-15 * (10 * i + j);
       ranges.dual_residual(i, j) = -1e-16 * (10 * i + j);
-      ranges.sensitivity(i, j) = 0.5 * (10 * i + j);
+      ranges.sensitivity.value(i, j) = 0.5 * (10 * i + j);
+      ranges.sensitivity.claim(i, j) = static_cast<std::uint8_t>((i + j) % 3);
       ranges.outcome(i, j) = static_cast<Outcome>((i + j) % 5);
       ranges.unique(i, j) = static_cast<std::uint8_t>((i * j) % 2);
       ranges.vertex(i, j) = (4 * i + j) % (kStates + 1) - 1;

@@ -103,8 +103,9 @@ TEST(Cell, SensitivityBoundsWhatTurnedNormalsDo) {
   double nearest = 0;
   for (Eigen::Index i = 0; i < before.value.size(); ++i) {
     const double moved = std::abs(after.value.data()[i] - before.value.data()[i]) / kAngle;
-    EXPECT_LE(moved, before.sensitivity.data()[i] * (1 + 1e-4) + 1e-4) << i;
-    if (before.sensitivity.data()[i] > 0) nearest = std::max(nearest, moved / before.sensitivity.data()[i]);
+    EXPECT_LE(moved, before.sensitivity.value.data()[i] * (1 + 1e-4) + 1e-4) << i;
+    if (before.sensitivity.value.data()[i] > 0)
+      nearest = std::max(nearest, moved / before.sensitivity.value.data()[i]);
   }
   EXPECT_GT(nearest, 0.1);
 }

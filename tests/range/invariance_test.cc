@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,13 +29,6 @@ std::vector<std::pair<std::string, Packing>> scenes() {
   for (std::uint64_t seed = 100; seed < 112; ++seed)
     result.emplace_back("pile " + std::to_string(seed), zoo::random_pile(seed, 12, seed % 3 == 0 ? -1 : 0.5));
   return result;
-}
-
-std::vector<int> shuffled(int count, Random& random) {
-  std::vector<int> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-  return order;
 }
 
 TEST(Invariance, FormulationsAgree) {
@@ -69,8 +61,8 @@ TEST(Invariance, OrderOfDisksAndContactsDoesNotMatter) {
   for (const auto& [name, packing] : scenes()) {
     const ForceRanges ranges = analyze(packing);
     for (int repeat = 0; repeat < 2; ++repeat) {
-      const std::vector<int> disks = shuffled(packing.disk_count(), random);
-      const std::vector<int> contacts = shuffled(packing.contact_count(), random);
+      const std::vector<int> disks = zoo::random_order(packing.disk_count(), random);
+      const std::vector<int> contacts = zoo::random_order(packing.contact_count(), random);
       EXPECT_TRUE(test::same_ranges(test::permuted(ranges, contacts),
                                     analyze(zoo::permuted(packing, disks, contacts)), 1e-9))
           << name;

@@ -46,7 +46,7 @@ void expect_same_values(const ForceRanges& a, const ForceRanges& b) {
   EXPECT_TRUE(test::same_entries(a.value, b.value, 0));
   EXPECT_TRUE(test::same_entries(a.lower, b.lower, 0));
   EXPECT_TRUE(test::same_entries(a.upper, b.upper, 0));
-  EXPECT_TRUE(test::same_entries(a.sensitivity, b.sensitivity, 0));
+  EXPECT_TRUE(test::same_entries(a.sensitivity.value, b.sensitivity.value, 0));
   EXPECT_TRUE(test::same_entries(a.primal_residual, b.primal_residual, 0));
   EXPECT_TRUE(test::same_entries(a.dual_residual, b.dual_residual, 0));
   EXPECT_TRUE((a.outcome == b.outcome).all());

@@ -217,6 +217,10 @@ AssertionResult same_state_measures(const ForceRanges& a, const ForceRanges& b, 
 AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance) {
   if (auto same = same_answers(a, b, tolerance); !same) return same;
   if (auto same = overlapping_enclosures(a, b, tolerance); !same) return same;
+  return same_extremal_states(a, b, tolerance);
+}
+
+AssertionResult same_extremal_states(const ForceRanges& a, const ForceRanges& b, double tolerance) {
   const auto whole = [](const Eigen::RowVectorXd& state) { return state; };
   if (auto same = same_states(a, b, tolerance, whole); !same) return same;
   return same_state_measures(a, b, tolerance);
@@ -280,6 +284,7 @@ ForceRanges mirrored(const ForceRanges& ranges) {
       }
     }
   });
+  if (result.centre.rows() > 0) result.centre.col(1) *= -1;
   result.value.col(kMinT).swap(result.value.col(kMaxT));
   result.lower.rightCols<2>().swap(result.upper.rightCols<2>());
   for (auto* table : {&result.value, &result.lower, &result.upper}) table->rightCols<2>() *= -1;

@@ -25,6 +25,10 @@ testing::AssertionResult same_bytes(const ForceRanges& a, const ForceRanges& b);
 /// differ.)
 testing::AssertionResult same_ranges(const ForceRanges& a, const ForceRanges& b, double tolerance);
 
+/// Of these the fields of extremal states alone: each value is attained by the same state, and what is
+/// measured on them is the same.
+testing::AssertionResult same_extremal_states(const ForceRanges& a, const ForceRanges& b, double tolerance);
+
 /// The same, but of the extremal states only the total normal force: what must agree where several states of
 /// smallest total normal force attain an optimum, and the choice between them is arbitrary.
 testing::AssertionResult same_ranges_and_weights(const ForceRanges& a, const ForceRanges& b,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -293,6 +294,13 @@ Packing random_pile(std::uint64_t seed, int count, double mu) {
   for (std::size_t i = packing.contacts.size(); i > 1; --i)
     std::swap(packing.contacts[i - 1], packing.contacts[random.below(i)]);
   return packing;
+}
+
+std::vector<int> random_order(int count, Random& random) {
+  std::vector<int> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  return order;
 }
 
 Packing permuted(const Packing& packing, const std::vector<int>& disks, const std::vector<int>& contacts) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "libindet/base/random.h"
 #include "libindet/packing/packing.h"
 
 namespace indet::zoo {
@@ -108,6 +110,8 @@ Packing random_pile(std::uint64_t seed, int count, double mu);
 
 // The same packing seen otherwise.
 
+/// The numbers 0 … count − 1 in an order by chance.
+std::vector<int> random_order(int count, Random& random);
 /// Disk i of the result is disk disks[i] of the packing, contact k is contact contacts[k].
 Packing permuted(const Packing& packing, const std::vector<int>& disks, const std::vector<int>& contacts);
 /// Bodies a and b of every contact between two disks change places: R and T stay.
