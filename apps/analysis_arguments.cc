@@ -193,6 +193,13 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
             "10000 disks)")
         ->type_name("none|sample:K|all")
         ->capture_default_str();
+    command
+        .add_option("--exact-budget", arguments.exact_budget,
+                    "How much rational arithmetic may settle of what double precision leaves in doubt, with "
+                    "--accuracy fast and standard, in solves of 100 equations (one of n equations counts as "
+                    "n^2 / 10000, at least 0.1): 0 leaves everything in doubt that is (default: "
+                    "200)")
+        ->check(CLI::NonNegativeNumber);
     command.add_flag(
         "--smallest-distances", arguments.smallest_distances,
         "Also find dR_min and dT_min of these contacts: the smallest distance between a state of "
@@ -205,13 +212,6 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
           "How the linear programs are written down (docs/theory.md, section 7); the results are the same")
       ->check(CLI::IsMember({"auto", "nullspace", "dual", "edge"}))
       ->capture_default_str();
-  command
-      .add_option("--exact-budget", arguments.exact_budget,
-                  "How much rational arithmetic may settle of what double precision leaves in doubt, with "
-                  "--accuracy fast and standard, in solves of 100 equations (one of n equations counts as "
-                  "n^2 / 10000, at least 0.1): 0 leaves everything in doubt that is")
-      ->check(CLI::NonNegativeNumber)
-      ->default_str("200");
   command
       .add_option("--extremal-states", arguments.states,
                   "Which extremal states to store. canonical: where many attain the same extremum, the one "
@@ -272,8 +272,6 @@ AnalyzeOptions resolve(const AnalysisArguments& arguments, int contacts, const C
   if (is_exact(arguments)) {
     if (arguments.exact_budget)
       throw UsageError("--exact-budget has no effect with --accuracy exact, which takes what it needs");
-    options.exactness = Exactness::kEverywhere;
-    options.exact_work = std::numeric_limits<double>::infinity();
   } else if (arguments.exact_budget) {
     options.exact_work = *arguments.exact_budget * kSquareOfHundred;
     if (*arguments.exact_budget == 0) options.exactness = Exactness::kNowhere;

@@ -13,6 +13,7 @@
 #include "apps/command.h"
 #include "apps/condition.h"
 #include "apps/estimate_arguments.h"
+#include "apps/exact_analysis.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
@@ -80,12 +81,17 @@ int run(const AnalyzeCommand& options, const Context& context) {
   if (analysis.method == Method::kBarrier && is_exact(options.arguments))
     throw UsageError(
         "--accuracy exact starts from the vertices of --method lp, and --method barrier has none");
+  if (options.arguments.exact_budget && (analysis.method == Method::kBarrier || analysis.estimate))
+    throw UsageError(
+        "--exact-budget has no effect with --method barrier and --accuracy estimate: intervals are proven "
+        "without exact arithmetic, and estimates are not");
   if (analysis.method != Method::kPivotingPaper) require_no_walk(options.arguments);
   if (analysis.method == Method::kPivotingTableau && analysis.formulation)
     throw UsageError(
         "--formulation has no effect with --method pivoting-tableau, which solves no linear programs");
   require_memory_for_duals(packing, analysis);
-  const ForceRanges ranges = analyze(packing, analysis);
+  const ForceRanges ranges =
+      is_exact(options.arguments) ? analyze_exactly(packing, analysis, context) : analyze(packing, analysis);
 
   Provenance provenance;
   provenance.arguments = context.arguments;

@@ -218,7 +218,8 @@ int run(const CompareCommand& options, const Context& context) {
   for (const Method method : kVertexMethods) {
     AnalyzeOptions analysis = resolve(options.arguments, packing.contact_count(), context);
     analysis.method = method;
-    analysis.reactions = false;  // contact forces are compared
+    analysis.reactions = false;  // contact forces are compared,
+    analysis.exact_work = 0;     // as the method finds them
     fix_sample(analysis.contacts, packing.contact_count());
     if (analysis.progress) {
       analysis.progress = [&, report = analysis.progress](const Progress& progress) {

@@ -22,7 +22,9 @@ nlohmann::json summary_to_json(const ForceRanges& ranges) {
   visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {
     const std::string_view group = field.group;
     const bool is_summary = group == "/equilibrium" || group == "/provenance/work";
-    if (!is_summary || field.presence != Presence::kAlways) return;
+    const bool is_told = field.presence == Presence::kAlways || field.presence == Presence::kExact ||
+                         field.presence == Presence::kHairline;
+    if (!is_summary || !is_told || !is_present(field.presence, ranges, 1)) return;
     if constexpr (std::is_same_v<Value, double>) {
       json[field.name] = json_number(value);
     } else if constexpr (std::is_enum_v<Value>) {

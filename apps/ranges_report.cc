@@ -253,7 +253,8 @@ void print_doubts(const ForceRanges& ranges) {
         is_hairline ? fmt::format(": a relative change of about {:.0e} may alter it", ranges.hairline) : "");
   }
   if (ranges.doubtful) {
-    say(" Every result is marked imprecise; --accuracy exact decides for the numbers as they are.\n");
+    say(" Every result is marked imprecise; --accuracy exact decides in small packings, for the numbers as "
+        "they are.\n");
   } else if (ranges.exact && (ranges.rank_ambiguous || is_hairline)) {
     say(" Exact arithmetic decided, for the numbers as they are.\n");
   } else if (ranges.exact) {

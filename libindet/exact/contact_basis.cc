@@ -235,22 +235,38 @@ int ContactBasis::sign_of_cost(int edge, const Goal& goal, const Multipliers& mu
   return own == 0 ? -sgn(priced) : sgn(mpq_class(scaled(own, problem_.edge(edge).shift) * scale - priced));
 }
 
-int ContactBasis::first_improving(const Goal& goal, const Multipliers& multipliers) const {
+int ContactBasis::first_improving(const Goal& goal, const Multipliers& multipliers,
+                                  const std::vector<bool>& face) const {
   const mpz_class scale = multipliers.scale * multipliers.y.denominator;
   for (int e = 0; e < problem_.edges(); ++e) {
-    if (!is_basic(e) && problem_.has_edge(e) && sign_of_cost(e, goal, multipliers, scale) > 0) return e;
+    if (is_open(e, face) && sign_of_cost(e, goal, multipliers, scale) > 0) return e;
   }
   return -1;
 }
 
-std::vector<int> ContactBasis::costly(const Goal& goal, const Multipliers& multipliers) const {
+std::vector<bool> ContactBasis::optimal_face(const Goal& goal, const Multipliers& multipliers,
+                                             const std::vector<bool>& face) const {
   const mpz_class scale = multipliers.scale * multipliers.y.denominator;
+  std::vector<bool> result(static_cast<std::size_t>(problem_.edges()), false);
+  for (int e = 0; e < problem_.edges(); ++e) {
+    result[static_cast<std::size_t>(e)] =
+        is_basic(e) || (is_open(e, face) && sign_of_cost(e, goal, multipliers, scale) == 0);
+  }
+  return result;
+}
+
+std::vector<int> ContactBasis::outside(const std::vector<bool>& face) const {
   std::vector<int> edges;
   for (int e = 0; e < problem_.edges(); ++e) {
-    if (!is_basic(e) && problem_.has_edge(e) && sign_of_cost(e, goal, multipliers, scale) < 0)
-      edges.push_back(e);
+    if (is_open(e, face)) edges.push_back(e);
   }
   return edges;
+}
+
+bool ContactBasis::can_grow(int edge) const {
+  const RationalVector change = change_by(edge);
+  return std::all_of(edges_.begin(), edges_.end(),
+                     [&](int e) { return sign_of(change, e) <= 0 || sign_of(x_, e) > 0; });
 }
 
 RationalVector ContactBasis::change_by(int entering) const {
@@ -311,10 +327,10 @@ RationalVector ContactBasis::row_of(int edge) const {
   return solver_->solve_transposed(right);
 }
 
-int ContactBasis::first_raising(int leaving) const {
+int ContactBasis::first_raising(int leaving, const std::vector<bool>& face) const {
   const RationalVector row = row_of(leaving);
   for (int e = 0; e < problem_.edges(); ++e) {
-    if (!is_basic(e) && problem_.has_edge(e) && product(row, e) < 0) return e;
+    if (is_open(e, face) && product(row, e) < 0) return e;
   }
   return -1;
 }

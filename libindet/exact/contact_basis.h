@@ -58,11 +58,16 @@ class ContactBasis {
     mpz_class scale = 1;  ///< true multipliers are y / scale
   };
   Multipliers multipliers(const Goal& goal) const;
-  /// The edge of smallest number (not below `first`) with a positive reduced cost, or −1.
-  int first_improving(const Goal& goal, const Multipliers& multipliers) const;
-  /// The edges with a negative reduced cost, ascending: at an optimum, those that are 0 wherever the goal is
-  /// as large.
-  std::vector<int> costly(const Goal& goal, const Multipliers& multipliers) const;
+  /// The edge of smallest number with a positive reduced cost, or −1. Here and below, of those of a face:
+  /// that is, where `face` is not empty, of edges that are set in it; the others are held at 0.
+  int first_improving(const Goal& goal, const Multipliers& multipliers, const std::vector<bool>& face) const;
+  /// At an optimum: the face on which the goal is as large, that is without edges of a negative reduced cost.
+  std::vector<bool> optimal_face(const Goal& goal, const Multipliers& multipliers,
+                                 const std::vector<bool>& face = {}) const;
+  /// The edges of a face that are not basic, ascending: where there is none, it has one state.
+  std::vector<int> outside(const std::vector<bool>& face) const;
+  /// Whether the strength of an edge that is not basic can grow from 0, all basic ones being feasible.
+  bool can_grow(int edge) const;
 
   /// Entering edge e: the basic edge of smallest number whose strength falls as x_e grows, or −1: then
   /// x_e = 1, x_B = −B⁻¹ A_e is a recession ray.
@@ -76,7 +81,7 @@ class ContactBasis {
   Ray ray(int entering) const;
   /// Leaving edge e of negative strength: the nonbasic edge of smallest number that can raise it, or −1: then
   /// the problem has no solution (Farkas).
-  int first_raising(int leaving) const;
+  int first_raising(int leaving, const std::vector<bool>& face) const;
   /// That proof: a motion, one velocity a row, that no edge resists and under which the load does work.
   /// Rounded, largest entry 1.
   std::vector<double> falling_motion(int leaving) const;
@@ -88,6 +93,10 @@ class ContactBasis {
     int kind = 0;  ///< 0: R of a contact with both edges, 1: its T; 2: an edge, or a slack (contact −1)
     int edge = -1;
   };
+  bool is_open(int edge, const std::vector<bool>& face) const {
+    return !is_basic(edge) && problem_.has_edge(edge) &&
+           (face.empty() || face[static_cast<std::size_t>(edge)]);
+  }
   mpq_class cost(const Variable& variable, const Goal& goal) const;
   mpq_class edge_cost(int edge, const Goal& goal) const;
   /// Sign of the reduced cost of an edge that is not basic; `scale`: of the multipliers, over which y is.

@@ -8,7 +8,7 @@ namespace {
 
 /// Criss-cross steps; `goal` absent: any feasible basis will do.
 Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> basis,
-             const std::optional<Goal>& goal, int pivot_limit) {
+             const std::optional<Goal>& goal, int pivot_limit, const std::vector<bool>& face) {
   Optimum result;
   for (;; ++result.pivots) {
     result.basis = basis;
@@ -18,14 +18,14 @@ Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> 
     }
     const int infeasible = basis->first_negative();
     if (goal) result.multipliers = std::make_shared<ContactBasis::Multipliers>(basis->multipliers(*goal));
-    const int improving = goal ? basis->first_improving(*goal, *result.multipliers) : -1;
+    const int improving = goal ? basis->first_improving(*goal, *result.multipliers, face) : -1;
     if (infeasible < 0 && improving < 0) {
       result.verdict = Verdict::kOptimal;
       if (goal) result.value = basis->sum(*goal);
       return result;
     }
     const bool leave = improving < 0 || (infeasible >= 0 && infeasible < improving);
-    const int partner = leave ? basis->first_raising(infeasible) : basis->first_blocking(improving);
+    const int partner = leave ? basis->first_raising(infeasible, face) : basis->first_blocking(improving);
     if (partner < 0) {
       result.verdict = leave ? Verdict::kEmpty : Verdict::kUnbounded;
       result.edge = leave ? infeasible : improving;
@@ -45,13 +45,13 @@ Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> 
 }  // namespace
 
 Optimum maximise(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start, const Goal& goal,
-                 int pivot_limit) {
-  return walk(problem, std::move(start), goal, pivot_limit);
+                 int pivot_limit, const std::vector<bool>& face) {
+  return walk(problem, std::move(start), goal, pivot_limit, face);
 }
 
 Optimum find_solution(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,
                       int pivot_limit) {
-  return walk(problem, std::move(start), {}, pivot_limit);
+  return walk(problem, std::move(start), {}, pivot_limit, {});
 }
 
 Enclosure enclose(const mpq_class& value) {

@@ -33,8 +33,9 @@ struct Optimum {
 /// Optimization 16, 683 (1985)): it needs no feasible start, takes no step by rounding, and is finite. A
 /// basis that is optimal already costs no pivot. kUnbounded is reported as "dual infeasible": the ray exists;
 /// that the problem has a solution is for the caller to know, or to ask with find_solution.
+/// `face`: where it is not empty, edges that are not set in it are held at 0; the start's are.
 Optimum maximise(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start, const Goal& goal,
-                 int pivot_limit);
+                 int pivot_limit, const std::vector<bool>& face = {});
 
 /// A feasible basis (kOptimal), or the proof that there is none (kEmpty, kInconsistent).
 Optimum find_solution(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,

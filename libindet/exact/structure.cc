@@ -14,17 +14,26 @@ namespace {
 /// A walk takes far fewer where it ends at all.
 constexpr int kMostPivots = 10000;
 
+/// Sets those edges that have a strength.
+void mark_open(const ContactBasis& state, const std::vector<int>& edges, std::vector<bool>& open) {
+  for (const int e : edges) {
+    if (state.sign_of_strength(e) > 0) open[static_cast<std::size_t>(e)] = true;
+  }
+}
+
 /// The edges that have a strength in some state, found by ever larger sums of strengths; in the last one, of
 /// the edges that have none, no state has any. Nothing if the work is over. `state` becomes a basis of a
 /// state.
 std::optional<std::vector<bool>> find_open(const ContactProblem& problem,
+                                           std::span<const std::shared_ptr<const ContactBasis>> known,
                                            std::shared_ptr<const ContactBasis>& state, Work& work) {
   std::vector<bool> open(static_cast<std::size_t>(problem.edges()), false);
   const std::vector<int> edges = problem.open_edges();
+  for (const auto& basis : known) {
+    if (basis && basis->is_balanced() && basis->first_negative() < 0) mark_open(*basis, edges, open);
+  }
   for (;;) {
-    for (const int e : edges) {
-      if (state->sign_of_strength(e) > 0) open[static_cast<std::size_t>(e)] = true;
-    }
+    mark_open(*state, edges, open);
     std::vector<std::pair<int, double>> rest;
     for (const int e : edges) {
       if (!open[static_cast<std::size_t>(e)]) rest.emplace_back(e, 1.0);
@@ -106,8 +115,18 @@ int Work::pivots(int most) const {
   return static_cast<int>(std::clamp((limit_ - done_) / solve_, 0.0, static_cast<double>(most)));
 }
 
-Structure find_structure(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,
-                         Work& work) {
+std::optional<bool> is_bounded(const Structure& structure, Work& work) {
+  std::vector<std::pair<int, double>> all;
+  for (const int e : structure.open->open_edges()) all.emplace_back(e, 1.0);
+  const Optimum largest = maximise(*structure.open, structure.state, Goal::of_strengths(std::move(all)),
+                                   work.pivots(kMostPivots));
+  work.add(largest.pivots);
+  if (largest.verdict != Verdict::kOptimal && largest.verdict != Verdict::kUnbounded) return {};
+  return largest.verdict == Verdict::kOptimal;
+}
+
+Structure find_structure(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start, Work& work,
+                         std::span<const std::shared_ptr<const ContactBasis>> known) {
   Structure result;
   if (!start) return result;
   const Optimum first = find_solution(problem, std::move(start), work.pivots(kMostPivots));
@@ -119,20 +138,13 @@ Structure find_structure(const ContactProblem& problem, std::shared_ptr<const Co
     return result;
   }
   std::shared_ptr<const ContactBasis> state = first.basis;
-  const auto open = find_open(problem, state, work);
+  const auto open = find_open(problem, known, state, work);
   if (!open) return result;
   result.open = std::make_shared<const ContactProblem>(problem.restricted_to(*open));
   result.state = basis_of(*result.open, *state);
   if (!result.state) return result;
   const std::vector<int> edges = result.open->open_edges();
   result.dim = static_cast<int>(edges.size()) - result.open->rank();
-  std::vector<std::pair<int, double>> all;
-  for (const int e : edges) all.emplace_back(e, 1.0);
-  const Optimum largest =
-      maximise(*result.open, result.state, Goal::of_strengths(std::move(all)), work.pivots(kMostPivots));
-  work.add(largest.pivots);
-  if (largest.verdict != Verdict::kOptimal && largest.verdict != Verdict::kUnbounded) return result;
-  result.bounded = largest.verdict == Verdict::kOptimal;
   result.parts = count_parts(*result.open, *result.state);
   result.verdict = Verdict::kOptimal;
   return result;

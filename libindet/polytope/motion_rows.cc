@@ -13,13 +13,6 @@ void add_multiplier(const EquilibriumProblem& problem, int bound, double value, 
   if (problem.bounds[static_cast<std::size_t>(bound)].follows_lower()) add(bound - 1, -value);
 }
 
-/// A velocity of the exact problem's row over that of the equation.
-double scale_of(const exact::ContactProblem& exact, const EquilibriumRow& row) {
-  if (row.body.is_cell()) return exact.compression_scale();
-  const bool turns = !row.body.is_wall() && row.component == 2;
-  return turns ? exact.spin_scale(row.body.disk_id()) : 1;
-}
-
 }  // namespace
 
 Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::BlockStructure& structure,
@@ -56,20 +49,13 @@ std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
     }
     const int number = exact.row(row.body, row.component);
     if (number < 0) continue;
-    result[static_cast<std::size_t>(number)] = velocity * scale_of(exact, row);
+    const bool turns = !row.body.is_cell() && row.component == 2;
+    const double scale = row.body.is_cell() ? exact.compression_scale()
+                         : turns            ? exact.spin_scale(row.body.disk_id())
+                                            : 1;
+    result[static_cast<std::size_t>(number)] = velocity * scale;
   }
   return result;
-}
-
-Eigen::VectorXd motion_on_equations(const exact::ContactProblem& exact, const EquilibriumProblem& problem,
-                                    std::span<const double> rows) {
-  Eigen::VectorXd motion = Eigen::VectorXd::Zero(problem.equations());
-  for (Eigen::Index i = 0; i < motion.size(); ++i) {
-    const EquilibriumRow& row = problem.rows[static_cast<std::size_t>(i)];
-    const int number = row.bound >= 0 ? -1 : exact.row(row.body, row.component);
-    if (number >= 0) motion[i] = rows[static_cast<std::size_t>(number)] / scale_of(exact, row);
-  }
-  return motion;
 }
 
 ContactMode without_edge(ContactMode mode, int sign) {

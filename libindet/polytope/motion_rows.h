@@ -25,11 +25,6 @@ void set_motion(const Packing& packing, const exact::ContactProblem& exact, std:
 std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
                                          const EquilibriumProblem& problem, const Eigen::VectorXd& motion);
 
-/// A motion of the exact problem's rows on the equations of a problem, but for its bounds, whose entries are
-/// 0.
-Eigen::VectorXd motion_on_equations(const exact::ContactProblem& exact, const EquilibriumProblem& problem,
-                                    std::span<const double> rows);
-
 /// What is left of a contact when the edge of the given sign is closed.
 ContactMode without_edge(ContactMode mode, int sign);
 

@@ -339,6 +339,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     if (!exact) return exact;
     exact->seconds = found.seconds;
     exact->smallest = found.smallest;
+    exact->solver_states = found.solver_states;
     exact->seconds["exact arithmetic"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return exact;
@@ -359,8 +360,10 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     if (!exact) throw;
     return std::move(*exact);
   }
+  // What the paper's walk does not find is a result about it.
+  const bool is_unsettled = ranges.doubtful || (ranges.method != Method::kPivotingPaper && is_marked(ranges));
   const bool wants_exact =
-      is_asked_for || (may_be_exact && ranges.method != Method::kBarrier && is_marked(ranges));
+      is_asked_for || (may_be_exact && ranges.method != Method::kBarrier && is_unsettled);
   if (!wants_exact) return ranges;
   std::optional<ForceRanges> exact =
       settle(ranges, requested_contacts(ranges, options.contacts, packing.contact_count()));

@@ -15,7 +15,6 @@
 #include "libindet/exact/body_motion.h"
 #include "libindet/exact/certificate.h"
 #include "libindet/exact/structure.h"
-#include "libindet/polytope/motion_rows.h"
 #include "libindet/range/drop_states.h"
 #include "libindet/range/sensitivity.h"
 
@@ -59,8 +58,7 @@ class ExactFinder {
         contacts_(contacts),
         found_(found),
         options_(options),
-        is_canonical_(kept.kind == StateChoice::Kind::kCanonical),
-        natural_(pose_equilibrium(packing)),
+        found_is_canonical_(found.state_kind == StateChoice::Kind::kCanonical),
         problem_(packing),
         work_(problem_, options.most_work),
         problem_summary_(found),
@@ -72,7 +70,7 @@ class ExactFinder {
     extrema_.ray.setConstant(count, 4, -1);
     extrema_.unique.setZero(count, 4);
     extrema_.clear(count);
-    extrema_.state_kind = is_canonical_ ? StateChoice::Kind::kCanonical : StateChoice::Kind::kSolver;
+    extrema_.state_kind = kept.kind == StateChoice::Kind::kNone ? StateChoice::Kind::kCanonical : kept.kind;
     extrema_.states.resize(0, 2 * count);
     extrema_.rays.resize(0, 2 * count);
     extrema_.active.resize(0, 0);
@@ -97,15 +95,20 @@ class ExactFinder {
 
   /// Throws Unsettled.
   ForceRanges run() {
+    // Each objective takes a solve at least.
+    const bool is_empty = found_.status == PolytopeStatus::kEmpty;
+    const auto objectives = is_empty ? 0 : 4 * std::ssize(contacts_) + 2 * reactions_.count();
+    if (work_.pivots(kLongestWalk) < std::min<std::int64_t>(objectives, kLongestWalk)) throw Unsettled();
     problem_summary_.exact = true;
     problem_summary_.rank = problem_.rank();
     problem_summary_.nullity = problem_summary_.unknowns - problem_.rank();
     if (!exact::proves_rank(problem_)) throw Unsettled();
-    structure_ = exact::find_structure(problem_, first_basis(), work_);
+    structure_ = exact::find_structure(problem_, first_basis(), work_, some_bases());
     if (structure_.verdict == Verdict::kUndecided) throw Unsettled();
     if (structure_.verdict == Verdict::kOptimal) {
       describe();
       find_all();
+      describe_status();
       for (const int i : contacts_) {
         for (const int minimum : {kMinR, kMinT}) extrema_.determined += is_determined(i, minimum) ? 2 : 0;
       }
@@ -123,14 +126,53 @@ class ExactFinder {
   }
 
  private:
-  /// From the edges that the first state of double precision has, if there is any.
+  /// Of the first state of double precision, if there is any.
   SharedBasis first_basis() const {
-    std::vector<double> preference(static_cast<std::size_t>(problem_.edges()), 0);
     if (found_.states.rows() > 0) {
-      const Eigen::VectorXd state = found_.states.row(0).transpose();
-      preference = exact::edge_strengths(packing_, view_of(state));
+      if (SharedBasis basis = basis_of_found(problem_, 0)) return basis;
     }
-    return ContactBasis::create(problem_, problem_.choose_basis(preference));
+    const std::vector<double> any(static_cast<std::size_t>(problem_.edges()), 0);
+    return ContactBasis::create(problem_, problem_.choose_basis(any));
+  }
+
+  /// Those of a few states of double precision that together have every edge which one of them has: for each
+  /// that is not seen yet, the state in which it is strongest.
+  std::vector<SharedBasis> some_bases() const {
+    const Eigen::Index states = found_.states.rows();
+    std::vector<std::vector<double>> strengths;
+    for (Eigen::Index row = 0; row < states; ++row) {
+      const Eigen::VectorXd state = found_.states.row(row).transpose();
+      strengths.push_back(exact::edge_strengths(packing_, view_of(state)));
+    }
+    const double least = tolerance::kExactZero * packing_.internal_force_unit();
+    std::vector<bool> seen(static_cast<std::size_t>(problem_.edges()), false);
+    std::vector<SharedBasis> bases;
+    for (std::size_t e = 0; states > 0 && e < seen.size(); ++e) {
+      if (seen[e] || !problem_.has_edge(static_cast<int>(e))) continue;
+      const auto strongest =
+          std::max_element(strengths.begin(), strengths.end(),
+                           [e](const auto& first, const auto& second) { return first[e] < second[e]; });
+      if ((*strongest)[e] <= least) continue;
+      bases.push_back(basis_of_found(problem_, static_cast<int>(strongest - strengths.begin())));
+      for (std::size_t other = 0; other < seen.size(); ++other)
+        seen[other] = seen[other] || (*strongest)[other] > least;
+    }
+    return bases;
+  }
+
+  /// In an unbounded polytope some normal force is.
+  void describe_status() {
+    bool is_bounded = true;
+    if (std::ssize(contacts_) == packing_.contact_count()) {
+      is_bounded = !(extrema_.claim.col(kMaxR) == Outcome::kUnbounded).any();
+    } else {
+      const std::optional<bool> found = exact::is_bounded(structure_, work_);
+      if (!found) throw Unsettled();
+      is_bounded = *found;
+    }
+    problem_summary_.status = structure_.dim == 0 ? PolytopeStatus::kPoint
+                              : is_bounded        ? PolytopeStatus::kBounded
+                                                  : PolytopeStatus::kUnbounded;
   }
 
   void describe() {
@@ -139,9 +181,6 @@ class ExactFinder {
     problem_summary_.dim = structure_.dim;
     problem_summary_.blocks = structure_.parts;
     problem_summary_.blocks_reason.clear();
-    problem_summary_.status = structure_.dim == 0  ? PolytopeStatus::kPoint
-                              : structure_.bounded ? PolytopeStatus::kBounded
-                                                   : PolytopeStatus::kUnbounded;
     problem_summary_.motion.resize(0, 3);
     problem_summary_.wall_motion.resize(0, 2);
     problem_summary_.cell_motion.resize(0, 2);
@@ -224,7 +263,8 @@ class ExactFinder {
   }
 
   std::vector<Answer> work_on(const Task& task, int pivots) const {
-    const SharedBasis start = task.state >= 0 ? basis_of_found(task.state) : structure_.state;
+    const SharedBasis start =
+        task.state >= 0 ? basis_of_found(*structure_.open, task.state) : structure_.state;
     std::vector<Answer> answers;
     for (const auto& [contact, column] : task.objectives)
       answers.push_back(find(contact, column, start ? start : structure_.state, pivots));
@@ -232,14 +272,13 @@ class ExactFinder {
   }
 
   /// The basis of a state of double precision, its half-planes left out; nothing if there is none.
-  SharedBasis basis_of_found(int row) const {
+  SharedBasis basis_of_found(const ContactProblem& problem, int row) const {
     const Eigen::VectorXd state = found_.states.row(row).transpose();
     std::vector<double> preference = exact::edge_strengths(packing_, view_of(state));
     for (const std::int32_t e : found_.active.row(row)) {
       if (e >= 0) preference[static_cast<std::size_t>(e)] = -kInfinity;
     }
-    const ContactProblem& open = *structure_.open;
-    return ContactBasis::create(open, open.choose_basis(preference));
+    return ContactBasis::create(problem, problem.choose_basis(preference));
   }
 
   Answer find(int contact, int column, const SharedBasis& start, int pivots) const {
@@ -251,19 +290,21 @@ class ExactFinder {
     answer.pivots = answer.optimum.pivots;
     if (answer.optimum.verdict != Verdict::kOptimal) return answer;
     answer.state = answer.optimum.basis;
-    const ContactProblem face = face_of(*structure_.open, answer.optimum, goal);
-    answer.unique = is_point(face);
-    if (answer.unique) return answer;
-    const SharedBasis on_face = ContactBasis::create(face, answer.state->edges());
-    std::vector<std::pair<int, double>> outside;
-    for (const int e : face.open_edges()) {
-      if (!on_face->is_basic(e)) outside.emplace_back(e, 1.0);
+    if (found_is_canonical_ && answer.pivots == 0 &&
+        is_certain(contact, column)) {  // which of several states is known, too
+      answer.unique = found_.unique(contact, column) == 1;
+      return answer;
     }
-    const Optimum most = exact::maximise(face, on_face, Goal::of_strengths(std::move(outside)), pivots);
-    answer.pivots += most.pivots + 1;
-    answer.unique = most.verdict == Verdict::kOptimal && most.value == 0;
-    if (is_canonical_ && !answer.unique) answer.state = canonical_state(face, on_face, pivots, answer.pivots);
+    const std::vector<bool> face = answer.state->optimal_face(goal, *answer.optimum.multipliers);
+    answer.unique = has_one_state(answer.state, face, pivots, answer.pivots);
+    if (!answer.unique) answer.state = canonical_state(answer.state, face, pivots, answer.pivots);
     return answer;
+  }
+
+  /// Whether double precision has certified this value.
+  bool is_certain(int contact, int column) const {
+    return !found_.doubtful && found_.outcome.rows() > contact &&
+           is_certified(found_.outcome(contact, column));
   }
 
   static Goal goal_of(int contact, int column) {
@@ -271,36 +312,34 @@ class ExactFinder {
     return {2 * contact + (column >= kMinT ? 1 : 0), is_maximum ? 1 : -1};
   }
 
-  /// The problem whose states are those at which the goal is as large as at this optimum.
-  static ContactProblem face_of(const ContactProblem& problem, const Optimum& optimum, const Goal& goal) {
-    std::vector<bool> open(static_cast<std::size_t>(problem.edges()), true);
-    for (const int e : optimum.basis->costly(goal, *optimum.multipliers))
-      open[static_cast<std::size_t>(e)] = false;
-    return problem.restricted_to(open);
-  }
-
-  static bool is_point(const ContactProblem& face) {
-    return static_cast<int>(face.open_edges().size()) == face.rank();
+  /// Whether no edge outside of the basis has a strength in any state of the face.
+  bool has_one_state(const SharedBasis& basis, const std::vector<bool>& face, int limit, int& pivots) const {
+    const std::vector<int> outside = basis->outside(face);
+    if (outside.empty()) return true;
+    ++pivots;
+    if (basis->can_grow(outside.front())) return false;
+    std::vector<std::pair<int, double>> sum;
+    for (const int e : outside) sum.emplace_back(e, 1.0);
+    const Optimum most =
+        exact::maximise(*structure_.open, basis, Goal::of_strengths(std::move(sum)), limit, face);
+    pivots += most.pivots + 1;
+    return most.verdict == Verdict::kOptimal && most.value == 0;
   }
 
   /// Of all states of a face that of smallest ΣR, and of these that of the smallest generic sum. Nothing if
   /// the limit of pivots was reached.
-  SharedBasis canonical_state(const ContactProblem& face, const SharedBasis& start, int limit,
+  SharedBasis canonical_state(const SharedBasis& start, const std::vector<bool>& face, int limit,
                               int& pivots) const {
     const Goal lightness(normal_forces_, -1);
-    const Optimum light = exact::maximise(face, start, lightness, limit);
+    const Optimum light = exact::maximise(*structure_.open, start, lightness, limit, face);
     pivots += light.pivots + 1;
     if (light.verdict != Verdict::kOptimal) return nullptr;
-    const ContactProblem lightest = face_of(face, light, lightness);
-    std::vector<int> edges = light.basis->edges();
-    if (!is_point(lightest)) {
-      const Optimum chosen = exact::maximise(lightest, ContactBasis::create(lightest, edges),
-                                             Goal::of_strengths(generic_), limit);
-      pivots += chosen.pivots + 1;
-      if (chosen.verdict != Verdict::kOptimal) return nullptr;
-      edges = chosen.basis->edges();
-    }
-    return ContactBasis::create(*structure_.open, std::move(edges));
+    const std::vector<bool> lightest = light.basis->optimal_face(lightness, *light.multipliers, face);
+    if (light.basis->outside(lightest).empty()) return light.basis;
+    const Optimum chosen =
+        exact::maximise(*structure_.open, light.basis, Goal::of_strengths(generic_), limit, lightest);
+    pivots += chosen.pivots + 1;
+    return chosen.verdict == Verdict::kOptimal ? chosen.basis : nullptr;
   }
 
   void store(const Answer& answer) {
@@ -322,38 +361,19 @@ class ExactFinder {
     if (optimum.verdict != Verdict::kOptimal || !answer.state) throw Unsettled();
     extrema_.claim(contact, column) = Outcome::kOptimal;
     extrema_.unique(contact, column) = answer.unique ? 1 : 0;
-    const int row = row_of_state(answer.state);
-    extrema_.vertex(contact, column) = row;
+    extrema_.vertex(contact, column) = row_of_state(answer.state);
     const exact::Enclosure bounds = exact::enclose(optimum.value);
     enclosures_.lower(contact, column) = bounds.lower;
     enclosures_.upper(contact, column) = bounds.upper;
-    enclosures_.sensitivity.set(contact, column, sensitivity(answer, states_[static_cast<std::size_t>(row)]));
+    enclosures_.sensitivity.set(contact, column, sensitivity(contact, column));
   }
 
-  /// As double precision found it, if it saw the same; else that of this state and this motion, of perhaps
-  /// several.
-  Sensitivity sensitivity(const Answer& answer, const Eigen::VectorXd& state) const {
-    const auto [contact, column] = std::pair(answer.contact, answer.column);
+  /// As double precision found it, if it saw the same; else no bound is known.
+  Sensitivity sensitivity(int contact, int column) const {
     const Sensitivities& known = found_.sensitivity;
-    const bool is_known = !found_.doubtful && known.value.rows() > contact &&
-                          found_.outcome.rows() > contact && is_certified(found_.outcome(contact, column)) &&
-                          !std::isnan(known.value(contact, column));
-    if (is_known)
-      return {known.value(contact, column), static_cast<SensitivityClaim>(known.claim(contact, column))};
-    return {sensitivity_to_normals(natural_, motion_of(*answer.optimum.multipliers), SceneForces(state))};
-  }
-
-  /// y at an optimum, one entry an equation of natural_.
-  Eigen::VectorXd motion_of(const ContactBasis::Multipliers& multipliers) const {
-    const mpz_class scale = multipliers.scale * multipliers.y.denominator;
-    const ContactProblem& open = *structure_.open;
-    std::vector<double> rows(static_cast<std::size_t>(open.rows()), 0);
-    for (std::size_t k = 0; k < open.independent_rows().size(); ++k) {
-      mpq_class y(multipliers.y.numerator[k], scale);
-      y.canonicalize();
-      rows[static_cast<std::size_t>(open.independent_rows()[k])] = y.get_d();
-    }
-    return motion_on_equations(open, natural_, rows);
+    if (!is_certain(contact, column) || std::isnan(known.value(contact, column)))
+      return {kInfinity, SensitivityClaim::kBound};
+    return {known.value(contact, column), static_cast<SensitivityClaim>(known.claim(contact, column))};
   }
 
   /// Whether both extrema of a component are the same.
@@ -438,8 +458,7 @@ class ExactFinder {
   const std::vector<int>& contacts_;
   const ForceRanges& found_;
   const ExactOptions& options_;
-  bool is_canonical_;
-  EquilibriumProblem natural_;
+  bool found_is_canonical_;
   ContactProblem problem_;
   exact::Work work_;
   ProblemSummary problem_summary_;

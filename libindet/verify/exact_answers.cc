@@ -38,9 +38,10 @@ void ExactAnswers::check_structure(Comparisons& compare) const {
   if (!compare.require(found.verdict == exact::Verdict::kOptimal, "status {}, but no state is admissible",
                        to_string(ranges_.status)))
     return;
-  const PolytopeStatus status = found.dim == 0  ? PolytopeStatus::kPoint
-                                : found.bounded ? PolytopeStatus::kBounded
-                                                : PolytopeStatus::kUnbounded;
+  const bool is_bounded = *exact::is_bounded(found, work);
+  const PolytopeStatus status = found.dim == 0 ? PolytopeStatus::kPoint
+                                : is_bounded   ? PolytopeStatus::kBounded
+                                               : PolytopeStatus::kUnbounded;
   compare.require(ranges_.status == status, "status: {} is stored, {} is right", to_string(ranges_.status),
                   to_string(status));
   compare.equal_count(ranges_.dim, found.dim, "dim");

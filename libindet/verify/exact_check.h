@@ -41,4 +41,9 @@ struct ExactCheckOptions {
 ExactCheck check_exactly(const Packing& packing, const ForceRanges& ranges,
                          const ExactCheckOptions& options = {});
 
+/// The ranges with the exact answers in place of the computed ones: values and states rounded to nearest,
+/// enclosures of two neighbouring doubles, outcomes, and all measures that follow. What is undecided or
+/// refuted becomes imprecise.
+ForceRanges adopt_exact(const Packing& packing, const ExactCheck& check, const ForceRanges& ranges);
+
 }  // namespace indet

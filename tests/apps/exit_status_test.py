@@ -96,6 +96,32 @@ class NoAdmissibleState(program.ProgramTest):
         self.run_indet("analyze", self.packing(program.pyramid(mu=0.27)))
 
 
+class Hairline(program.ProgramTest):
+    """A groove so shallow that double precision sees one direction of its walls: δR is 1e-14, and would be 1."""
+
+    ANGLE, MU = 1e-13, 0.1
+
+    def test_exact_arithmetic_decides_what_rounding_hides(self):
+        packing = self.packing(program.groove(self.ANGLE, self.MU))
+        done = self.run_indet("analyze", packing)
+        self.assertRegex(done.stdout, r"The rank is ambiguous.*Exact arithmetic decided, for the numbers as they are\.")
+        self.run_indet("verify", "p.ranges.h5")
+        report = json.loads(self.run_indet("--json", "analyze", packing, "--overwrite").stdout)
+        self.assertEqual((report["exact"], report["doubtful"], report["certified"]), (True, False, 8))
+        self.assertLess(report["hairline"], 1e-9)
+        # The difference of two values near 1/2, each rounded once.
+        self.assertAlmostEqual(report["max_delta_R"] / (self.MU * self.ANGLE), 1, places=2)
+
+    def test_without_a_budget_the_doubt_stays_and_is_said(self):
+        packing = self.packing(program.groove(self.ANGLE, self.MU))
+        done = self.run_indet("analyze", packing, "--exact-budget", "0", status=5)
+        self.assertIn("Every result is marked imprecise; --accuracy exact decides", done.stdout)
+        self.run_indet("analyze", packing, "--accuracy", "exact", "--overwrite")
+        for arguments in (["--accuracy", "exact"], ["--accuracy", "estimate"], ["--method", "barrier"]):
+            done = self.run_indet("analyze", packing, "--exact-budget", "1", *arguments, status=2)
+            self.assertIn("--exact-budget has no effect", done.stderr)
+
+
 class Nothing(program.ProgramTest):
     """A scene with nothing to balance is a packing like any other."""
 

@@ -63,6 +63,8 @@ int main(int argc, char** argv) {
     rare.reason = "a reason";
     rare.blocks = -1;
     rare.blocks_reason = "rounding decides";
+    rare.exact = true;
+    rare.hairline = 1e-12;
     rare.gap = 1e-6;
     rare.enclosed = 3;
     rare.smallest = indet::test::sample_distances();

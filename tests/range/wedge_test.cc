@@ -103,7 +103,9 @@ TEST_P(Wedge, SmallAnglesApproachTheLimitAndZeroIsAnotherPacking) {
 TEST_P(Wedge, ADoubtfulRankIsNeverPassedOverInSilence) {
   // The smallest singular value is about φ: between the two rank tolerances it is doubtful.
   for (const double phi : {1e-10, 3e-11, 1e-11, 3e-12, 1e-12, 5e-13}) {
-    const ForceRanges ranges = analyze(zoo::wedge(phi, mu()));
+    AnalyzeOptions options;
+    options.exact_work = 0;
+    const ForceRanges ranges = analyze(zoo::wedge(phi, mu()), options);
     const bool right = ranges.nullity == 1 && std::abs(ranges.delta_R[0] - mu() * phi) < 1e-15 / phi &&
                        std::abs(ranges.delta_T[0] - mu()) < 1e-15 / phi;
     EXPECT_TRUE(right || ranges.certified == 0) << phi << " δR " << ranges.delta_R[0];

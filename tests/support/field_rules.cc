@@ -214,6 +214,8 @@ const std::vector<RuleOfField>& field_rules() {
       {"/equilibrium@blocks", kEqual},
       {"/equilibrium@blocks_reason", kNot, kRoundingReason},
       {"/equilibrium@rank_ambiguous", kEqual},
+      {"/equilibrium@exact", kNot, kRoundingReason},
+      {"/equilibrium@hairline", kNot, kRoundingReason},
       {"/equilibrium@rank_gap", kNot, kRoundingReason},
       {"/equilibrium@smallest_accepted", kNot, kRoundingReason},
       {"/equilibrium@largest_rejected", kNot, kRoundingReason},

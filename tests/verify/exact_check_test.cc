@@ -168,5 +168,42 @@ TEST(ExactCheck, SaysThatTheRankDiffers) {
   EXPECT_NE(check.messages.front().find("rank differs"), std::string::npos);
 }
 
+TEST(AdoptExact, StoresTheExactValuesRoundedOnce) {
+  int scenes = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const extremes::Scene scene = extremes::random_scene(seed, 3);
+    SCOPED_TRACE(scene.kind + ", " + scene.name);
+    ForceRanges ranges = analyze(scene.packing);
+    if (ranges.status == PolytopeStatus::kEmpty || ranges.doubtful) continue;
+    const ExactCheck check = check_exactly(scene.packing, ranges);
+    EXPECT_TRUE(check.passed());
+    ranges = adopt_exact(scene.packing, check, ranges);
+    EXPECT_EQ(ranges.certified, ranges.objectives);
+    oracle::RationalSimplex exact(scene.packing);
+    for (int i = 0; i < scene.packing.contact_count(); ++i) {
+      for (int column = 0; column < 4; ++column) {
+        const auto value = exact.extremum(2 * i + (column >= kMinT ? 1 : 0), column % 2 == 0 ? -1 : 1);
+        const double stored = ranges.value(i, column);
+        if (!value) {
+          EXPECT_TRUE(std::isinf(stored));
+          continue;
+        }
+        EXPECT_LE(mpq_class(ranges.lower(i, column)), *value);
+        EXPECT_GE(mpq_class(ranges.upper(i, column)), *value);
+        EXPECT_LE(ranges.upper(i, column), std::nextafter(ranges.lower(i, column), INFINITY));
+        EXPECT_LE(ranges.lower(i, column), stored);
+        EXPECT_GE(ranges.upper(i, column), stored);
+      }
+    }
+    const Reactions& reactions = ranges.reactions;
+    EXPECT_EQ(reactions.certified(), 2 * reactions.count());
+    EXPECT_TRUE((reactions.lower <= reactions.value && reactions.value <= reactions.upper).all());
+    const Verification again = verify_ranges(scene.packing, ranges);
+    EXPECT_TRUE(again.passed()) << (again.messages.empty() ? "" : again.messages.front());
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 20);
+}
+
 }  // namespace
 }  // namespace indet
