@@ -195,10 +195,10 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
         ->capture_default_str();
     command
         .add_option("--exact-budget", arguments.exact_budget,
-                    "How much rational arithmetic may settle of what double precision leaves in doubt, with "
-                    "--accuracy fast and standard, in solves of 100 equations (one of n equations counts as "
-                    "n^2 / 10000, at least 0.1): 0 leaves everything in doubt that is (default: "
-                    "200)")
+                    "How much rational arithmetic may find all results again where double precision leaves "
+                    "some in doubt, with --accuracy fast and standard, in solves of 100 equations (one of n "
+                    "equations counts as 0.1 + n^2 / 10000; default: 200). Single values are settled before, "
+                    "by up to 100 further ones. 0: nothing is settled so")
         ->check(CLI::NonNegativeNumber);
     command.add_flag(
         "--smallest-distances", arguments.smallest_distances,

@@ -296,6 +296,24 @@ ForceRanges equations_alone(const Packing& packing, const ContactRequest& reques
   return ranges;
 }
 
+/// The smallest distances beside exact results: those that double precision found of the same polytope, else
+/// none.
+SmallestDistances distances_beside(const ForceRanges& exact, const ForceRanges& found,
+                                   const std::vector<int>& contacts) {
+  const bool is_same = !found.doubtful && found.status == exact.status &&
+                       found.smallest.outcome.rows() == exact.outcome.rows();
+  if (is_same) return found.smallest;
+  SmallestDistances none;
+  const Eigen::Index count = exact.outcome.rows();
+  for (Eigen::VectorXd* values : {&none.d_R, &none.d_T}) values->setConstant(count, ForceRanges::kNaN);
+  for (auto* table : {&none.lower, &none.shortage}) table->setConstant(count, 2, ForceRanges::kNaN);
+  none.outcome.setConstant(count, 2, Outcome::kNotRequested);
+  for (const int i : contacts) {
+    if (exact.status != PolytopeStatus::kEmpty) none.outcome.row(i) = Outcome::kFailed;
+  }
+  return none;
+}
+
 bool is_marked(const ForceRanges& ranges) {
   return ranges.doubtful || ranges.imprecise + ranges.failed + ranges.reactions.uncertain() > 0;
 }
@@ -338,7 +356,7 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     std::optional<ForceRanges> exact = find_exact_ranges(packing, contacts, kept, found, exactly);
     if (!exact) return exact;
     exact->seconds = found.seconds;
-    exact->smallest = found.smallest;
+    if (options.smallest_distances) exact->smallest = distances_beside(*exact, found, contacts);
     exact->solver_states = found.solver_states;
     exact->seconds["exact arithmetic"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -349,8 +367,11 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
     ranges = analyze_in_doubles(packing, in_doubles);
   } catch (const LibraryError&) {
     // A linear program could not be solved, or rounding decides whether forces balance.
-    if (!may_be_exact) throw;
+    const bool is_walk =
+        options.method && *options.method != Method::kLp && *options.method != Method::kBarrier;
+    if (!may_be_exact || is_walk) throw;  // what a walk does not find is a result about it
     const std::vector<int> contacts = chosen_contacts(options.contacts, packing.contact_count());
+    if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
     ContactRequest request;
     request.choice = options.contacts.kind;
     if (request.choice == ContactChoice::Kind::kSample)

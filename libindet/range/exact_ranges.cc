@@ -58,7 +58,6 @@ class ExactFinder {
         contacts_(contacts),
         found_(found),
         options_(options),
-        found_is_canonical_(found.state_kind == StateChoice::Kind::kCanonical),
         problem_(packing),
         work_(problem_, options.most_work),
         problem_summary_(found),
@@ -97,7 +96,8 @@ class ExactFinder {
   ForceRanges run() {
     // Each objective takes a solve at least.
     const bool is_empty = found_.status == PolytopeStatus::kEmpty;
-    const auto objectives = is_empty ? 0 : 4 * std::ssize(contacts_) + 2 * reactions_.count();
+    const auto objectives =
+        is_empty ? 1 : std::max<std::int64_t>(1, 4 * std::ssize(contacts_) + 2 * reactions_.count());
     if (work_.pivots(kLongestWalk) < std::min<std::int64_t>(objectives, kLongestWalk)) throw Unsettled();
     problem_summary_.exact = true;
     problem_summary_.rank = problem_.rank();
@@ -186,7 +186,7 @@ class ExactFinder {
     problem_summary_.cell_motion.resize(0, 2);
     problem_summary_.bound_multipliers.resize(0);
     last_ = structure_.state;
-    Random random(1);  // as those of OptimalityChecker
+    Random random(1);  // fixed weights in [1, 2), so that no two states of a face tie
     for (const int e : open.open_edges()) generic_.emplace_back(e, -random.uniform(1, 2));
     for (int i = 0; i < open.contacts(); ++i) normal_forces_.emplace_back(2 * i, 1.0);
   }
@@ -262,12 +262,15 @@ class ExactFinder {
     }
   }
 
+  /// `pivots`: at most so many in a walk, less those of the walks before.
   std::vector<Answer> work_on(const Task& task, int pivots) const {
     const SharedBasis start =
         task.state >= 0 ? basis_of_found(*structure_.open, task.state) : structure_.state;
     std::vector<Answer> answers;
-    for (const auto& [contact, column] : task.objectives)
-      answers.push_back(find(contact, column, start ? start : structure_.state, pivots));
+    for (const auto& [contact, column] : task.objectives) {
+      answers.push_back(find(contact, column, start ? start : structure_.state, std::max(0, pivots)));
+      pivots -= answers.back().pivots + 1;
+    }
     return answers;
   }
 
@@ -290,14 +293,11 @@ class ExactFinder {
     answer.pivots = answer.optimum.pivots;
     if (answer.optimum.verdict != Verdict::kOptimal) return answer;
     answer.state = answer.optimum.basis;
-    if (found_is_canonical_ && answer.pivots == 0 &&
-        is_certain(contact, column)) {  // which of several states is known, too
-      answer.unique = found_.unique(contact, column) == 1;
-      return answer;
-    }
     const std::vector<bool> face = answer.state->optimal_face(goal, *answer.optimum.multipliers);
-    answer.unique = has_one_state(answer.state, face, pivots, answer.pivots);
-    if (!answer.unique) answer.state = canonical_state(answer.state, face, pivots, answer.pivots);
+    const std::optional<bool> is_one = has_one_state(answer.state, face, pivots, answer.pivots);
+    answer.unique = is_one.value_or(false);
+    if (!is_one) answer.state = nullptr;
+    if (is_one == false) answer.state = canonical_state(answer.state, face, pivots, answer.pivots);
     return answer;
   }
 
@@ -312,8 +312,10 @@ class ExactFinder {
     return {2 * contact + (column >= kMinT ? 1 : 0), is_maximum ? 1 : -1};
   }
 
-  /// Whether no edge outside of the basis has a strength in any state of the face.
-  bool has_one_state(const SharedBasis& basis, const std::vector<bool>& face, int limit, int& pivots) const {
+  /// Whether no edge outside of the basis has a strength in any state of the face. Nothing if the limit of
+  /// pivots was reached.
+  std::optional<bool> has_one_state(const SharedBasis& basis, const std::vector<bool>& face, int limit,
+                                    int& pivots) const {
     const std::vector<int> outside = basis->outside(face);
     if (outside.empty()) return true;
     ++pivots;
@@ -323,7 +325,9 @@ class ExactFinder {
     const Optimum most =
         exact::maximise(*structure_.open, basis, Goal::of_strengths(std::move(sum)), limit, face);
     pivots += most.pivots + 1;
-    return most.verdict == Verdict::kOptimal && most.value == 0;
+    if (most.verdict == Verdict::kUnbounded) return false;
+    if (most.verdict != Verdict::kOptimal) return {};
+    return most.value == 0;
   }
 
   /// Of all states of a face that of smallest ΣR, and of these that of the smallest generic sum. Nothing if
@@ -365,15 +369,17 @@ class ExactFinder {
     const exact::Enclosure bounds = exact::enclose(optimum.value);
     enclosures_.lower(contact, column) = bounds.lower;
     enclosures_.upper(contact, column) = bounds.upper;
-    enclosures_.sensitivity.set(contact, column, sensitivity(contact, column));
+    enclosures_.sensitivity.set(contact, column, sensitivity(answer));
   }
 
   /// As double precision found it, if it saw the same; else no bound is known.
-  Sensitivity sensitivity(int contact, int column) const {
-    const Sensitivities& known = found_.sensitivity;
-    if (!is_certain(contact, column) || std::isnan(known.value(contact, column)))
+  Sensitivity sensitivity(const Answer& answer) const {
+    const auto [contact, column] = std::pair(answer.contact, answer.column);
+    const bool is_same = answer.optimum.pivots == 0 && is_certain(contact, column);
+    if (!is_same || std::isnan(found_.sensitivity.value(contact, column)))
       return {kInfinity, SensitivityClaim::kBound};
-    return {known.value(contact, column), static_cast<SensitivityClaim>(known.claim(contact, column))};
+    return {found_.sensitivity.value(contact, column),
+            static_cast<SensitivityClaim>(found_.sensitivity.claim(contact, column))};
   }
 
   /// Whether both extrema of a component are the same.
@@ -458,7 +464,6 @@ class ExactFinder {
   const std::vector<int>& contacts_;
   const ForceRanges& found_;
   const ExactOptions& options_;
-  bool found_is_canonical_;
   ContactProblem problem_;
   exact::Work work_;
   ProblemSummary problem_summary_;

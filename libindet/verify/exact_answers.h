@@ -23,7 +23,7 @@ class ExactAnswers {
   /// Whether no state is admissible.
   bool agree_on_emptiness() const { return ranges_.exact && check().proves_emptiness; }
 
-  /// Checks status, rank, dim and blocks. Precondition: the ranges are exact, and F is not empty.
+  /// Checks status, dim and blocks. Precondition: the ranges are exact, and F is not empty.
   void check_structure(Comparisons& compare) const;
 
  private:
