@@ -96,7 +96,8 @@ int main(int argc, char** argv) {
   const auto line = [](const std::string& name, int number, const extremes::Tally& tally) {
     const auto sum = static_cast<double>(tally.right + tally.contained + tally.marked + tally.wrong);
     fmt::print("| {:<38} | {:>6} | {:>7} | {:>9} | {:>6} | {:>5} | {:>6.1f} % |\n", name, number, tally.right,
-               tally.contained, tally.marked, tally.wrong, 100 * static_cast<double>(tally.right) / sum);
+               tally.contained, tally.marked, tally.wrong,
+               100 * static_cast<double>(tally.right + tally.contained) / sum);
   };
   fmt::print("| {:<38} | {:>6} | {:>7} | {:>9} | {:>6} | {:>5} | {:>8} |\n", "kind of scene", "scenes",
              "right", "contained", "marked", "wrong", "unmarked");
