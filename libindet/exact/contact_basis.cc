@@ -1,24 +1,9 @@
 #include "libindet/exact/contact_basis.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace indet::exact {
-namespace {
-
-IntegerColumn on_rows(const IntegerColumn& column, const std::vector<int>& row_number) {
-  IntegerColumn result;
-  result.shift = column.shift;
-  for (std::size_t k = 0; k < column.row.size(); ++k) {
-    const int row = row_number[static_cast<std::size_t>(column.row[k])];
-    if (row < 0) continue;
-    result.row.push_back(row);
-    result.value.push_back(column.value[k]);
-  }
-  return result;
-}
-
-}  // namespace
-
 std::unique_ptr<ContactBasis> ContactBasis::create(const ContactProblem& problem, std::vector<int> edges) {
   if (static_cast<int>(edges.size()) != problem.rank()) return nullptr;
   std::unique_ptr<ContactBasis> basis(new ContactBasis(problem));
@@ -49,7 +34,7 @@ std::unique_ptr<ContactBasis> ContactBasis::create(const ContactProblem& problem
     basis->full_.push_back(&problem.edge(e));
   }
   for (const IntegerColumn* column : basis->full_)
-    basis->columns_.push_back(on_rows(*column, problem.row_number()));
+    basis->columns_.push_back(problem.on_independent_rows(*column));
   std::vector<const IntegerColumn*> pointers;
   for (const IntegerColumn& column : basis->columns_) pointers.push_back(&column);
   basis->solver_ = RationalSolver::create(std::move(pointers));
@@ -270,7 +255,7 @@ bool ContactBasis::can_grow(int edge) const {
 }
 
 RationalVector ContactBasis::change_by(int entering) const {
-  const IntegerColumn column = on_rows(problem_.edge(entering), problem_.row_number());
+  const IntegerColumn column = problem_.on_independent_rows(problem_.edge(entering));
   std::vector<mpz_class> right(static_cast<std::size_t>(problem_.rank()), 0);
   for (std::size_t k = 0; k < column.row.size(); ++k)
     right[static_cast<std::size_t>(column.row[k])] = column.value[k];
@@ -337,6 +322,16 @@ int ContactBasis::first_raising(int leaving, const std::vector<bool>& face) cons
 
 std::vector<double> ContactBasis::falling_motion(int leaving) const {
   return rounded_motion(row_of(leaving), 1, -1);
+}
+
+std::shared_ptr<const ContactBasis> basis_at(const Packing& packing, const ContactProblem& problem,
+                                             std::span<const double> forces,
+                                             std::span<const std::int32_t> zero_edges) {
+  std::vector<double> preference = edge_strengths(packing, forces);
+  for (const std::int32_t e : zero_edges) {
+    if (e >= 0) preference[static_cast<std::size_t>(e)] = -std::numeric_limits<double>::infinity();
+  }
+  return ContactBasis::create(problem, problem.choose_basis(preference));
 }
 
 }  // namespace indet::exact

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -131,5 +133,11 @@ class ContactBasis {
   RationalVector x_;
   bool balanced_ = false;
 };
+
+/// The basis next to a state in double precision (2M forces): its strongest edges, and of those named as zero
+/// (−1: none) no more than are needed. Nothing if that is singular.
+std::shared_ptr<const ContactBasis> basis_at(const Packing& packing, const ContactProblem& problem,
+                                             std::span<const double> forces,
+                                             std::span<const std::int32_t> zero_edges);
 
 }  // namespace indet::exact

@@ -334,6 +334,18 @@ const IntegerColumn& ContactProblem::edge(int edge) const {
   return edge % 2 == 0 ? contact.plus : contact.minus;
 }
 
+IntegerColumn ContactProblem::on_independent_rows(const IntegerColumn& column) const {
+  IntegerColumn part;
+  part.shift = column.shift;
+  for (std::size_t k = 0; k < column.row.size(); ++k) {
+    const int row = row_number_[static_cast<std::size_t>(column.row[k])];
+    if (row < 0) continue;
+    part.row.push_back(row);
+    part.value.push_back(column.value[k]);
+  }
+  return part;
+}
+
 std::vector<int> ContactProblem::choose_basis(std::span<const double> preference) const {
   std::vector<int> order = open_edges();
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {

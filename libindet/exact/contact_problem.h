@@ -77,6 +77,8 @@ class ContactProblem {
     return contacts_[static_cast<std::size_t>(contact)].tangential;
   }
   const IntegerColumn& edge(int edge) const;
+  /// The part of a column on the independent rows, numbered among these.
+  IntegerColumn on_independent_rows(const IntegerColumn& column) const;
 
   /// −w times load_scale(): the right-hand side, integers, one a row.
   const std::vector<mpz_class>& load() const { return load_; }

@@ -1,8 +1,6 @@
 #include "libindet/exact/structure.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -10,9 +8,6 @@
 
 namespace indet::exact {
 namespace {
-
-/// A walk takes far fewer where it ends at all.
-constexpr int kMostPivots = 10000;
 
 /// Sets those edges that have a strength.
 void mark_open(const ContactBasis& state, const std::vector<int>& edges, std::vector<bool>& open) {
@@ -40,7 +35,7 @@ std::optional<std::vector<bool>> find_open(const ContactProblem& problem,
     }
     if (rest.empty()) return open;
     const Goal goal = Goal::of_strengths(std::move(rest));
-    const Optimum found = maximise(problem, state, goal, work.pivots(kMostPivots));
+    const Optimum found = maximise(problem, state, goal, work.pivots());
     work.add(found.pivots);
     if (found.verdict == Verdict::kUnbounded) {
       const ContactBasis::Ray ray = found.basis->ray(found.edge);
@@ -57,17 +52,7 @@ std::optional<std::vector<bool>> find_open(const ContactProblem& problem,
 /// Edges e outside of a basis and those of the basis whose strengths change with e, modulo a prime.
 int count_parts(const ContactProblem& problem, const ContactBasis& basis) {
   std::vector<IntegerColumn> columns;
-  const auto on_independent_rows = [&](const IntegerColumn& column) {
-    IntegerColumn part;
-    for (std::size_t k = 0; k < column.row.size(); ++k) {
-      const int row = problem.row_number()[static_cast<std::size_t>(column.row[k])];
-      if (row < 0) continue;
-      part.row.push_back(row);
-      part.value.push_back(column.value[k]);
-    }
-    return part;
-  };
-  for (const int e : basis.edges()) columns.push_back(on_independent_rows(problem.edge(e)));
+  for (const int e : basis.edges()) columns.push_back(problem.on_independent_rows(problem.edge(e)));
   std::vector<const IntegerColumn*> pointers;
   for (const IntegerColumn& column : columns) pointers.push_back(&column);
   const PrimeField field(large_prime(0));
@@ -77,7 +62,7 @@ int count_parts(const ContactProblem& problem, const ContactBasis& basis) {
   for (const int e : problem.open_edges()) {
     if (basis.is_basic(e)) continue;
     moves[static_cast<std::size_t>(e)] = true;
-    const IntegerColumn column = on_independent_rows(problem.edge(e));
+    const IntegerColumn column = problem.on_independent_rows(problem.edge(e));
     std::vector<std::uint64_t> right(static_cast<std::size_t>(problem.rank()), 0);
     for (std::size_t k = 0; k < column.row.size(); ++k)
       right[static_cast<std::size_t>(column.row[k])] = field.reduce(column.value[k]);
@@ -108,18 +93,11 @@ std::shared_ptr<const ContactBasis> basis_of(const ContactProblem& open, const C
 
 }  // namespace
 
-Work::Work(const ContactProblem& problem, double limit)
-    : solve_(1e3 + std::pow(static_cast<double>(problem.rows()), 2)), limit_(limit) {}
-
-int Work::pivots(int most) const {
-  return static_cast<int>(std::clamp((limit_ - done_) / solve_, 0.0, static_cast<double>(most)));
-}
-
 std::optional<bool> is_bounded(const Structure& structure, Work& work) {
   std::vector<std::pair<int, double>> all;
   for (const int e : structure.open->open_edges()) all.emplace_back(e, 1.0);
-  const Optimum largest = maximise(*structure.open, structure.state, Goal::of_strengths(std::move(all)),
-                                   work.pivots(kMostPivots));
+  const Optimum largest =
+      maximise(*structure.open, structure.state, Goal::of_strengths(std::move(all)), work.pivots());
   work.add(largest.pivots);
   if (largest.verdict != Verdict::kOptimal && largest.verdict != Verdict::kUnbounded) return {};
   return largest.verdict == Verdict::kOptimal;
@@ -129,7 +107,7 @@ Structure find_structure(const ContactProblem& problem, std::shared_ptr<const Co
                          std::span<const std::shared_ptr<const ContactBasis>> known) {
   Structure result;
   if (!start) return result;
-  const Optimum first = find_solution(problem, std::move(start), work.pivots(kMostPivots));
+  const Optimum first = find_solution(problem, std::move(start), work.pivots());
   work.add(first.pivots);
   if (first.verdict == Verdict::kEmpty) result.motion = first.basis->falling_motion(first.edge);
   if (first.verdict == Verdict::kInconsistent) result.motion = *first.basis->contradiction();

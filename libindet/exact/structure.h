@@ -6,26 +6,9 @@
 #include <vector>
 
 #include "libindet/exact/optimum.h"
+#include "libindet/exact/work.h"
 
 namespace indet::exact {
-
-/// Counts exact solves, weighted by size, against a limit: so the same decisions are settled on every
-/// machine.
-class Work {
- public:
-  /// `limit`: in squares of the number of equations, summed over solves (a solve costs at least 1e3).
-  Work(const ContactProblem& problem, double limit);
-
-  /// Pivots that are left, at most `most`.
-  int pivots(int most) const;
-  /// Counts a walk of so many pivots.
-  void add(int pivots) { done_ += (pivots + 1) * solve_; }
-  bool is_over() const { return done_ > limit_; }
-
- private:
-  double solve_, limit_;
-  double done_ = 0;
-};
 
 /// What the polytope F of admissible states is, over the rational numbers.
 struct Structure {

@@ -23,7 +23,8 @@ enum class Accuracy : std::uint8_t {
   kStandard  ///< canonical extremal states too
 };
 
-/// About two seconds; what is left then stays marked.
+/// Up to some seconds (3 to 8 s where it did not suffice for arrays of 7 to 25 disks); what is left stays
+/// marked.
 inline constexpr double kUsualExactWork = 2e6;
 
 struct AnalyzeOptions {

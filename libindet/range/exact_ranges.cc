@@ -4,16 +4,17 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
-#include "libindet/base/random.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/base/worker_team.h"
 #include "libindet/exact/body_motion.h"
 #include "libindet/exact/certificate.h"
+#include "libindet/exact/extremal_state.h"
 #include "libindet/exact/structure.h"
 #include "libindet/range/drop_states.h"
 #include "libindet/range/sensitivity.h"
@@ -27,8 +28,6 @@ using exact::Goal;
 using exact::Optimum;
 using exact::Verdict;
 using SharedBasis = std::shared_ptr<const ContactBasis>;
-
-constexpr int kLongestWalk = 10000;
 
 /// The work was over.
 struct Unsettled {};
@@ -98,7 +97,7 @@ class ExactFinder {
     const bool is_empty = found_.status == PolytopeStatus::kEmpty;
     const auto objectives =
         is_empty ? 1 : std::max<std::int64_t>(1, 4 * std::ssize(contacts_) + 2 * reactions_.count());
-    if (work_.pivots(kLongestWalk) < std::min<std::int64_t>(objectives, kLongestWalk)) throw Unsettled();
+    if (work_.pivots() < objectives) throw Unsettled();
     problem_summary_.exact = true;
     problem_summary_.rank = problem_.rank();
     problem_summary_.nullity = problem_summary_.unknowns - problem_.rank();
@@ -186,9 +185,7 @@ class ExactFinder {
     problem_summary_.cell_motion.resize(0, 2);
     problem_summary_.bound_multipliers.resize(0);
     last_ = structure_.state;
-    Random random(1);  // fixed weights in [1, 2), so that no two states of a face tie
-    for (const int e : open.open_edges()) generic_.emplace_back(e, -random.uniform(1, 2));
-    for (int i = 0; i < open.contacts(); ++i) normal_forces_.emplace_back(2 * i, 1.0);
+    search_.emplace(open);
   }
 
   void describe_motion() {
@@ -212,12 +209,8 @@ class ExactFinder {
   };
 
   /// What is found of one objective.
-  struct Answer {
+  struct Answer : exact::ExtremalState {
     int contact = 0, column = 0;
-    Optimum optimum;
-    bool unique = false;
-    SharedBasis state;  ///< of the extremal state that is kept
-    int pivots = 0;     ///< of all walks
   };
 
   std::vector<Task> list_tasks() const {
@@ -251,7 +244,7 @@ class ExactFinder {
       if (work_.is_over()) throw Unsettled();
       const std::size_t count = std::min(kRound, tasks.size() - first);
       std::vector<std::vector<Answer>> answers(count);
-      const int pivots = work_.pivots(kLongestWalk);
+      const int pivots = work_.pivots();
       team.run(static_cast<std::int64_t>(count), [&](int, std::int64_t k) {
         answers[static_cast<std::size_t>(k)] = work_on(tasks[first + static_cast<std::size_t>(k)], pivots);
       });
@@ -268,7 +261,9 @@ class ExactFinder {
         task.state >= 0 ? basis_of_found(*structure_.open, task.state) : structure_.state;
     std::vector<Answer> answers;
     for (const auto& [contact, column] : task.objectives) {
-      answers.push_back(find(contact, column, start ? start : structure_.state, std::max(0, pivots)));
+      answers.push_back(
+          {search_->find(goal_of(contact, column), start ? start : structure_.state, std::max(0, pivots)),
+           contact, column});
       pivots -= answers.back().pivots + 1;
     }
     return answers;
@@ -277,28 +272,8 @@ class ExactFinder {
   /// The basis of a state of double precision, its half-planes left out; nothing if there is none.
   SharedBasis basis_of_found(const ContactProblem& problem, int row) const {
     const Eigen::VectorXd state = found_.states.row(row).transpose();
-    std::vector<double> preference = exact::edge_strengths(packing_, view_of(state));
-    for (const std::int32_t e : found_.active.row(row)) {
-      if (e >= 0) preference[static_cast<std::size_t>(e)] = -kInfinity;
-    }
-    return ContactBasis::create(problem, problem.choose_basis(preference));
-  }
-
-  Answer find(int contact, int column, const SharedBasis& start, int pivots) const {
-    Answer answer;
-    answer.contact = contact;
-    answer.column = column;
-    const Goal goal = goal_of(contact, column);
-    answer.optimum = exact::maximise(*structure_.open, start, goal, pivots);
-    answer.pivots = answer.optimum.pivots;
-    if (answer.optimum.verdict != Verdict::kOptimal) return answer;
-    answer.state = answer.optimum.basis;
-    const std::vector<bool> face = answer.state->optimal_face(goal, *answer.optimum.multipliers);
-    const std::optional<bool> is_one = has_one_state(answer.state, face, pivots, answer.pivots);
-    answer.unique = is_one.value_or(false);
-    if (!is_one) answer.state = nullptr;
-    if (is_one == false) answer.state = canonical_state(answer.state, face, pivots, answer.pivots);
-    return answer;
+    const std::vector<std::int32_t> zero(found_.active.row(row).begin(), found_.active.row(row).end());
+    return exact::basis_at(packing_, problem, view_of(state), zero);
   }
 
   /// Whether double precision has certified this value.
@@ -310,40 +285,6 @@ class ExactFinder {
   static Goal goal_of(int contact, int column) {
     const bool is_maximum = column == kMaxR || column == kMaxT;
     return {2 * contact + (column >= kMinT ? 1 : 0), is_maximum ? 1 : -1};
-  }
-
-  /// Whether no edge outside of the basis has a strength in any state of the face. Nothing if the limit of
-  /// pivots was reached.
-  std::optional<bool> has_one_state(const SharedBasis& basis, const std::vector<bool>& face, int limit,
-                                    int& pivots) const {
-    const std::vector<int> outside = basis->outside(face);
-    if (outside.empty()) return true;
-    ++pivots;
-    if (basis->can_grow(outside.front())) return false;
-    std::vector<std::pair<int, double>> sum;
-    for (const int e : outside) sum.emplace_back(e, 1.0);
-    const Optimum most =
-        exact::maximise(*structure_.open, basis, Goal::of_strengths(std::move(sum)), limit, face);
-    pivots += most.pivots + 1;
-    if (most.verdict == Verdict::kUnbounded) return false;
-    if (most.verdict != Verdict::kOptimal) return {};
-    return most.value == 0;
-  }
-
-  /// Of all states of a face that of smallest ΣR, and of these that of the smallest generic sum. Nothing if
-  /// the limit of pivots was reached.
-  SharedBasis canonical_state(const SharedBasis& start, const std::vector<bool>& face, int limit,
-                              int& pivots) const {
-    const Goal lightness(normal_forces_, -1);
-    const Optimum light = exact::maximise(*structure_.open, start, lightness, limit, face);
-    pivots += light.pivots + 1;
-    if (light.verdict != Verdict::kOptimal) return nullptr;
-    const std::vector<bool> lightest = light.basis->optimal_face(lightness, *light.multipliers, face);
-    if (light.basis->outside(lightest).empty()) return light.basis;
-    const Optimum chosen =
-        exact::maximise(*structure_.open, light.basis, Goal::of_strengths(generic_), limit, lightest);
-    pivots += chosen.pivots + 1;
-    return chosen.verdict == Verdict::kOptimal ? chosen.basis : nullptr;
   }
 
   void store(const Answer& answer) {
@@ -432,8 +373,8 @@ class ExactFinder {
     for (int c = 0; c < coefficients.size(); ++c) {
       if (coefficients[c] != 0) terms.emplace_back(c, coefficients[c]);
     }
-    const Optimum optimum = exact::maximise(
-        *structure_.open, last_, Goal(std::move(terms), end == 1 ? 1 : -1), work_.pivots(kLongestWalk));
+    const Optimum optimum =
+        exact::maximise(*structure_.open, last_, Goal(std::move(terms), end == 1 ? 1 : -1), work_.pivots());
     work_.add(optimum.pivots);
     extrema_.pivots += optimum.pivots;
     Reactions& r = reactions_;
@@ -469,11 +410,10 @@ class ExactFinder {
   ProblemSummary problem_summary_;
   exact::Structure structure_;
   std::vector<ReactionSum> sums_;
-  std::vector<std::pair<int, double>> generic_;        ///< a weight an edge
-  std::vector<std::pair<int, double>> normal_forces_;  ///< of all contacts
-  SharedBasis last_;                                   ///< where the next reaction starts
-  std::map<std::vector<int>, int> numbers_;            ///< of the edges of a basis: its state
-  std::vector<SharedBasis> bases_;                     ///< of each state
+  std::optional<exact::ExtremalStates> search_;  ///< over structure_.open
+  SharedBasis last_;                             ///< where the next reaction starts
+  std::map<std::vector<int>, int> numbers_;      ///< of the edges of a basis: its state
+  std::vector<SharedBasis> bases_;               ///< of each state
   std::vector<Eigen::VectorXd> states_;
   std::map<std::vector<double>, std::int32_t> rays_;
   std::int64_t settled_ = 0;

@@ -21,7 +21,7 @@ struct ProblemSummary {
   int blocks = -1;     ///< Independent parts of F; −1 where they are not known.
   std::string blocks_reason;  ///< Then, why.
   bool rank_ambiguous = false;
-  /// All of the results are those of rational arithmetic (exact_ranges.h).
+  /// Rational arithmetic found all of the results, from the polytope on (exact_ranges.h).
   bool exact = false;
   /// Relative size of a change of the packing's numbers that may alter a decision about F (rank, closed
   /// contacts, emptiness, boundedness), estimated; NaN where none lies within rounding.

@@ -108,9 +108,10 @@ void visit_problem(Part& r, Visit& visit) {
               Extent::kOne, Extent::kOne, Presence::kUnknownBlocks},
         r.blocks_reason);
   attribute("rank_ambiguous", "1 if the rank lies within rounding", r.rank_ambiguous);
-  visit(Field{"/equilibrium", "exact", "1", "1 if all results are those of rational arithmetic",
-              FieldSource::kRounding, Extent::kOne, Extent::kOne, Presence::kExact},
-        r.exact);
+  visit(
+      Field{"/equilibrium", "exact", "1", "1 if rational arithmetic found all results, from the polytope on",
+            FieldSource::kRounding, Extent::kOne, Extent::kOne, Presence::kExact},
+      r.exact);
   visit(
       Field{
           "/equilibrium", "hairline", "1",

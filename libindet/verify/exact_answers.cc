@@ -1,5 +1,7 @@
 #include "libindet/verify/exact_answers.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
@@ -8,6 +10,12 @@
 #include "libindet/exact/structure.h"
 
 namespace indet {
+namespace {
+
+/// States that show which edges are open; a few have most of them.
+constexpr Eigen::Index kMostKnown = 16;
+
+}  // namespace
 
 const ExactCheck& ExactAnswers::check() const {
   if (!check_) check_ = check_exactly(packing_, ranges_);
@@ -26,15 +34,19 @@ bool ExactAnswers::agree_on_reaction(Eigen::Index row, int end) const {
 
 void ExactAnswers::check_structure(Comparisons& compare) const {
   const exact::ContactProblem problem(packing_);
-  std::vector<double> preference(static_cast<std::size_t>(problem.edges()), 0);
-  if (ranges_.states.rows() > 0) {
-    const Eigen::VectorXd state = ranges_.states.row(0).transpose();
-    preference =
-        exact::edge_strengths(packing_, std::span(state.data(), static_cast<std::size_t>(state.size())));
+  std::vector<std::shared_ptr<const exact::ContactBasis>> known;
+  for (Eigen::Index row = 0; row < std::min(kMostKnown, ranges_.states.rows()); ++row) {
+    const Eigen::VectorXd state = ranges_.states.row(row).transpose();
+    const std::vector<std::int32_t> zero(ranges_.active.row(row).begin(), ranges_.active.row(row).end());
+    known.push_back(exact::basis_at(packing_, problem,
+                                    std::span(state.data(), static_cast<std::size_t>(state.size())), zero));
+  }
+  if (known.empty() || !known.front()) {
+    const std::vector<double> any(static_cast<std::size_t>(problem.edges()), 0);
+    known.insert(known.begin(), exact::ContactBasis::create(problem, problem.choose_basis(any)));
   }
   exact::Work work(problem, std::numeric_limits<double>::infinity());
-  const exact::Structure found = exact::find_structure(
-      problem, exact::ContactBasis::create(problem, problem.choose_basis(preference)), work);
+  const exact::Structure found = exact::find_structure(problem, known.front(), work, known);
   const std::optional<bool> is_bounded =
       found.verdict == exact::Verdict::kOptimal ? exact::is_bounded(found, work) : std::nullopt;
   if (found.verdict == exact::Verdict::kUndecided ||

@@ -91,17 +91,6 @@ class Check {
     return ContactBasis::create(problem_, problem_.choose_basis(preference));
   }
 
-  /// Edges by their strength at a state or along a ray; those named as active last.
-  std::vector<double> preference_of(const Eigen::VectorXd& forces,
-                                    const std::vector<std::int32_t>& active) const {
-    std::vector<double> preference =
-        exact::edge_strengths(packing_, {forces.data(), static_cast<std::size_t>(forces.size())});
-    for (const std::int32_t e : active) {
-      if (e >= 0) preference[static_cast<std::size_t>(e)] = -kInfinity;
-    }
-    return preference;
-  }
-
   std::shared_ptr<const ContactBasis> basis_of_state(int state) const {
     std::vector<std::int32_t> active(ranges_.active.row(state).begin(), ranges_.active.row(state).end());
     std::sort(active.begin(), active.end());
@@ -112,7 +101,9 @@ class Check {
     if (static_cast<int>(rest.size()) == problem_.rank()) {
       if (std::shared_ptr<const ContactBasis> basis = ContactBasis::create(problem_, rest)) return basis;
     }
-    return basis_by(preference_of(ranges_.states.row(state).transpose(), active));
+    const Eigen::VectorXd forces = ranges_.states.row(state).transpose();
+    return exact::basis_at(packing_, problem_, {forces.data(), static_cast<std::size_t>(forces.size())},
+                           active);
   }
 
   void check_emptiness() {

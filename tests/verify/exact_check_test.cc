@@ -13,6 +13,7 @@
 #include "tests/support/extremes.h"
 #include "tests/support/rational_simplex.h"
 #include "tests/support/zoo.h"
+#include "tests/verify/exact_values.h"
 
 namespace indet {
 namespace {
@@ -180,21 +181,7 @@ TEST(AdoptExact, StoresTheExactValuesRoundedOnce) {
     ranges = adopt_exact(scene.packing, check, ranges);
     EXPECT_EQ(ranges.certified, ranges.objectives);
     oracle::RationalSimplex exact(scene.packing);
-    for (int i = 0; i < scene.packing.contact_count(); ++i) {
-      for (int column = 0; column < 4; ++column) {
-        const auto value = exact.extremum(2 * i + (column >= kMinT ? 1 : 0), column % 2 == 0 ? -1 : 1);
-        const double stored = ranges.value(i, column);
-        if (!value) {
-          EXPECT_TRUE(std::isinf(stored));
-          continue;
-        }
-        EXPECT_LE(mpq_class(ranges.lower(i, column)), *value);
-        EXPECT_GE(mpq_class(ranges.upper(i, column)), *value);
-        EXPECT_LE(ranges.upper(i, column), std::nextafter(ranges.lower(i, column), INFINITY));
-        EXPECT_LE(ranges.lower(i, column), stored);
-        EXPECT_GE(ranges.upper(i, column), stored);
-      }
-    }
+    expect_exact_values(scene.packing, ranges, exact);
     const Reactions& reactions = ranges.reactions;
     EXPECT_EQ(reactions.certified(), 2 * reactions.count());
     EXPECT_TRUE((reactions.lower <= reactions.value && reactions.value <= reactions.upper).all());
