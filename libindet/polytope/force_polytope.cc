@@ -151,10 +151,13 @@ Eigen::VectorXd widest_ray(const ForcePolytope& polytope) {
 }
 
 void find_recession_cones(const LpOptions& options, ForcePolytope& polytope) {
-  const Eigen::VectorXd widest = widest_ray(polytope);
+  const bool is_large = std::any_of(polytope.blocks.begin(), polytope.blocks.end(), [](const auto& block) {
+    return block.view.dim() >= kFewestForEquations;
+  });
+  const Eigen::VectorXd guess = is_large ? widest_ray(polytope) : polytope.ray;
   for (PolytopeBlock& block : polytope.blocks) {
     if (polytope.blocks.size() == 1 || find_recession_ray(block.view, options).x.size() > 0)
-      block.recession = find_recession_cone(block.view, widest(block.edges), options);
+      block.recession = find_recession_cone(block.view, guess(block.edges), options);
   }
 }
 

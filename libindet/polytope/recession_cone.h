@@ -23,9 +23,10 @@ struct RecessionCone {
   Eigen::VectorXd ray(const Eigen::VectorXd& point, int inequalities) const;
 };
 
-/// The cone of a set that is not bounded. Up to a few dozen dimensions it is on all edges. Above, it is on
-/// those of `guess`, of maximal support as far as is known, and on those that linear programs find to be
-/// loaded beside them, until no sum over the others exceeds tolerance::kRay in the truncated cone.
+/// The cone of a set that is not bounded. Below kFewestForEquations dimensions (interior.h) it is on all
+/// edges, and `guess` does not matter. From there on it is on those of `guess`, of maximal support as far as
+/// is known, and on those that linear programs find to be loaded beside them, until no sum over the others
+/// exceeds tolerance::kRay in the truncated cone.
 std::shared_ptr<const RecessionCone> find_recession_cone(const SlopeView& view, const Eigen::VectorXd& guess,
                                                          const LpOptions& options);
 
