@@ -515,4 +515,13 @@ inline constexpr int kMostVertexSteps = 2000;
 inline constexpr double kProgress = 0.9;
 inline constexpr int kIdleIterations = 15;
 
+// Limits of loads.
+
+/// Where loads take part that do not turn with gravity, the angle at which it is proven to stand and the one
+/// at which it is proven to fall are this far apart (rad), or somewhat more. Workable: 1e-14 … 1e-6.
+inline constexpr double kTilt = 1e-12;
+
+/// The infimum of the friction factor is enclosed to this, relative to it. Workable: 1e-14 … 1e-6.
+inline constexpr double kFrictionFactor = 1e-12;
+
 }  // namespace indet::tolerance

@@ -61,17 +61,14 @@ void add_column(const RowNumbering& number, const Contact& contact, const Contac
   if (along_tangent >= 0 && T != 0) out.emplace_back(along_tangent, column, -T);
 }
 
-/// What acts in an equation, in a unit of force.
-double load_of(const Packing& packing, const EquilibriumRow& row, double unit) {
-  if (row.body.is_wall()) {
-    const Wall& wall = packing[row.body.wall_id()];
-    return (row.component == 0 ? wall.load_n : wall.load_t) / unit;
-  }
+/// What of these loads is in an equation, in a unit of force.
+double load_of(const Packing& packing, const Loads& loads, const EquilibriumRow& row, double unit) {
+  if (row.body.is_wall()) return loads.on_wall(row.body.wall_id(), row.component) / unit;
   if (row.body.is_cell()) {
-    const double stress = packing.stress.components()[static_cast<std::size_t>(row.component)];
+    const double stress = loads.stress[static_cast<std::size_t>(row.component)];
     return packing.cell.area() * (stress / unit) / packing.cell_length();
   }
-  Vector3 wrench = packing.wrench(row.body.disk_id()) / unit;
+  Vector3 wrench = loads.wrench(packing, row.body.disk_id()) / unit;
   wrench.z() /= packing[row.body.disk_id()].radius;
   return wrench[row.component];
 }
@@ -179,13 +176,14 @@ Eigen::VectorXd EquilibriumProblem::strengths_of(const InternalForces& state) co
   return x;
 }
 
-EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes) {
+EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes,
+                                    std::span<const Loads> changes) {
   EquilibriumProblem problem;
   problem.units = problem_units(packing);
   problem.disks = packing.disk_count();
   problem.walls = packing.wall_count();
   problem.modes.assign(modes.begin(), modes.end());
-  const RowNumbering number(packing, modes, problem.units);
+  const RowNumbering number(packing, modes, changes, problem.units);
   problem.rows = number.rows();
   const double unit = problem.units.internal_in_scene();
   const int first_bound = static_cast<int>(problem.rows.size());
@@ -238,11 +236,18 @@ EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const Cont
   const int unknowns = static_cast<int>(problem.edges.size());
   problem.matrix = assemble(equations, unknowns, matrix);
   problem.edge_matrix = assemble(equations, unknowns, edge_matrix);
-  problem.right_hand_sides.resize(equations, 1);
+  problem.right_hand_sides.setZero(equations, 1 + std::ssize(changes));
+  const Loads acting = loads_of(packing);
   for (int row = 0; row < equations; ++row) {
     const EquilibriumRow& r = problem.rows[static_cast<std::size_t>(row)];
-    problem.right_hand_sides(row, 0) =
-        r.bound >= 0 ? problem.bounds[static_cast<std::size_t>(r.bound)].value : -load_of(packing, r, unit);
+    if (r.bound >= 0) {
+      problem.right_hand_sides(row, 0) = problem.bounds[static_cast<std::size_t>(r.bound)].value;
+      continue;
+    }
+    problem.right_hand_sides(row, 0) = -load_of(packing, acting, r, unit);
+    for (std::size_t k = 0; k < changes.size(); ++k)
+      problem.right_hand_sides(row, static_cast<Eigen::Index>(k) + 1) =
+          -load_of(packing, changes[k], r, unit);
   }
   return problem;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libindet/equilibrium/bound_rows.h"
+#include "libindet/packing/loads.h"
 #include "libindet/packing/packing.h"
 
 namespace indet {
@@ -77,7 +78,8 @@ struct ContactEnds {
 /// (kOpen); then the slacks s of bounds:   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
 struct EquilibriumProblem {
   Eigen::SparseMatrix<double> matrix;    ///< A: equations × unknowns
-  Eigen::MatrixXd right_hand_sides;      ///< equations × loads: b, one column a load; the first is what acts
+  /// Equations × (1 + changes): b of what acts, then b_1, … of changes of it, A F = b + Σ λ_k b_k.
+  Eigen::MatrixXd right_hand_sides;
   std::vector<EquilibriumRow> rows;      ///< what each equation is
   std::vector<ContactMode> modes;        ///< M
   std::vector<ContactEnds> contacts;     ///< M
@@ -118,8 +120,11 @@ struct EquilibriumProblem {
   Eigen::VectorXd strengths_of(const InternalForces& forces) const;
 };
 
-/// Builds the problem. Preconditions: find_defect(packing) is empty; modes.size() = M.
-EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes);
+/// Builds the problem. `changes`: of the loads; each has a right-hand side, and the equations are those that
+/// any of the loads needs. Preconditions: find_defect(packing) is empty; modes.size() = M; defect_of() of each
+/// change is.
+EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes,
+                                    std::span<const Loads> changes = {});
 /// With every contact as the scene has it.
 EquilibriumProblem pose_equilibrium(const Packing& packing);
 

@@ -6,7 +6,7 @@
 namespace indet {
 
 RowNumbering::RowNumbering(const Packing& packing, std::span<const ContactMode> modes,
-                           const ForceUnits& units)
+                           std::span<const Loads> changes, const ForceUnits& units)
     : numbers_(packing.disks.size(), {-1, -1, -1}), wall_numbers_(packing.walls.size(), {-1, -1}) {
   cell_numbers_.fill(-1);
   std::vector<std::array<bool, 3>> needed(packing.disks.size(), {false, false, false});
@@ -37,7 +37,10 @@ RowNumbering::RowNumbering(const Packing& packing, std::span<const ContactMode> 
     for (int k = 0; k < 3; ++k) {
       const auto number = static_cast<std::size_t>(i);
       const auto component = static_cast<std::size_t>(k);
-      if (!needed[number][component] && wrench[k] == 0) continue;
+      const bool changes_load = std::any_of(changes.begin(), changes.end(), [&](const Loads& change) {
+        return change.wrench(packing, DiskId(i))[k] != 0;
+      });
+      if (!needed[number][component] && wrench[k] == 0 && !changes_load) continue;
       numbers_[number][component] = static_cast<int>(rows_.size());
       const double weight = k < 2 ? std::abs(disk.mass * packing.gravity[k]) : 0;
       rows_.push_back({Body::disk(DiskId(i)), k, units.internal_in_scene() * (k < 2 ? 1 : disk.radius),
@@ -50,7 +53,10 @@ RowNumbering::RowNumbering(const Packing& packing, std::span<const ContactMode> 
       const double load = k == 0 ? wall.load_n : wall.load_t;
       const auto number = static_cast<std::size_t>(w);
       const auto component = static_cast<std::size_t>(k);
-      if (std::isnan(load) || (!needed_of_wall[number][component] && load == 0)) continue;
+      const bool changes_load = std::any_of(changes.begin(), changes.end(), [&](const Loads& change) {
+        return change.on_wall(WallId(w), k) != 0;
+      });
+      if (std::isnan(load) || (!needed_of_wall[number][component] && load == 0 && !changes_load)) continue;
       wall_numbers_[number][component] = static_cast<int>(rows_.size());
       rows_.push_back({Body::wall(WallId(w)), k, units.internal_in_scene(), std::abs(load)});
     }

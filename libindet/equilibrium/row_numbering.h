@@ -13,7 +13,8 @@ namespace indet {
 /// xy, pressure).
 class RowNumbering {
  public:
-  RowNumbering(const Packing& packing, std::span<const ContactMode> modes, const ForceUnits& units);
+  RowNumbering(const Packing& packing, std::span<const ContactMode> modes, std::span<const Loads> changes,
+               const ForceUnits& units);
 
   int operator()(DiskId disk, int component) const {
     return numbers_[static_cast<std::size_t>(disk.value())][static_cast<std::size_t>(component)];

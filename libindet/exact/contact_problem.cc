@@ -92,8 +92,9 @@ class RowNumbers {
   int count_ = 0;
 };
 
-/// The radius of each disk; where a contact has another lever, a power of two near it.
-std::vector<double> torque_divisors(const Packing& packing) {
+/// The radius of each disk; where a contact has another lever, or its torque is changed, a power of two near
+/// it, so that columns are dyadic.
+std::vector<double> torque_divisors(const Packing& packing, const Loads* change) {
   std::vector<double> divisors;
   for (const Disk& disk : packing.disks) divisors.push_back(disk.radius);
   const auto see = [&](DiskId disk, double lever) {
@@ -106,17 +107,23 @@ std::vector<double> torque_divisors(const Packing& packing) {
     see(contact.a, packing.lever_a(ContactId(i)));
     if (!contact.b.is_wall()) see(contact.b.disk_id(), packing.lever_b(ContactId(i)));
   }
+  for (int i = 0; change && i < std::ssize(change->disks); ++i) {
+    if (change->disks[static_cast<std::size_t>(i)].z() != 0) see(DiskId(i), 0);
+  }
   return divisors;
 }
 
 /// The wrench of a disk, exactly; the torque divided by `torque_divisor`.
-std::array<mpq_class, 3> exact_wrench(const Packing& packing, const Disk& disk, double torque_divisor) {
+std::array<mpq_class, 3> exact_wrench(const Packing& packing, const Loads& loads, int disk,
+                                      double torque_divisor) {
   std::array<mpq_class, 3> wrench;
-  if (disk.fixed) return wrench;
-  const mpq_class mass(disk.mass);
-  wrench[0] = mass * mpq_class(packing.gravity.x()) + mpq_class(disk.load.x());
-  wrench[1] = mass * mpq_class(packing.gravity.y()) + mpq_class(disk.load.y());
-  wrench[2] = mpq_class(disk.load.z()) / mpq_class(torque_divisor);
+  const auto i = static_cast<std::size_t>(disk);
+  if (packing.disks[i].fixed) return wrench;
+  const mpq_class mass(packing.disks[i].mass);
+  const Vector3 own = loads.disks.empty() ? Vector3(0, 0, 0) : loads.disks[i];
+  wrench[0] = mass * mpq_class(loads.gravity.x()) + mpq_class(own.x());
+  wrench[1] = mass * mpq_class(loads.gravity.y()) + mpq_class(own.y());
+  wrench[2] = mpq_class(own.z()) / mpq_class(torque_divisor);
   return wrench;
 }
 
@@ -219,37 +226,43 @@ mpq_class scaled(const mpq_class& value, long power) {
   return result;
 }
 
-ContactProblem::ContactProblem(const Packing& packing) {
+ContactProblem::ContactProblem(const Packing& packing, const Loads* change) {
   RowNumbers number(packing);
-  std::vector<std::pair<int, mpq_class>> wrench;
-  const std::vector<double> divisors = torque_divisors(packing);
+  const std::vector<double> divisors = torque_divisors(packing, change);
   const auto divisor = [&](DiskId disk) { return divisors[static_cast<std::size_t>(disk.value())]; };
   for (int i = 0; i < packing.disk_count(); ++i) {
     spin_scale_.push_back(divisor(DiskId(i)) / packing[DiskId(i)].radius);
-    const auto exact = exact_wrench(packing, packing[DiskId(i)], divisor(DiskId(i)));
-    for (int k = 0; k < 3; ++k) {
-      const mpq_class& value = exact[static_cast<std::size_t>(k)];
-      if (value != 0) wrench.emplace_back(number.need(DiskId(i), k), value);
-    }
-  }
-  for (int w = 0; w < packing.wall_count(); ++w) {
-    const Wall& wall = packing[WallId(w)];
-    for (int k = 0; k < 2; ++k) {
-      const double load = k == 0 ? wall.load_n : wall.load_t;
-      if (!std::isnan(load) && load != 0) wrench.emplace_back(number.need(WallId(w), k), mpq_class(load));
-    }
   }
   double cell_divisor = 1;
   if (packing.stress.is_imposed()) {
-    const auto stress = packing.stress.components();
     cell_divisor = std::ldexp(1.0, std::ilogb(packing.cell_length()));
     compression_scale_ = cell_divisor / packing.cell_length();
     row_of_cell_ = number.of_cell();
-    for (std::size_t k = 0; k < stress.size(); ++k) {
-      if (row_of_cell_[k] >= 0)
-        wrench.emplace_back(row_of_cell_[k], exact_load(packing, stress[k], cell_divisor));
-    }
   }
+  // w of some loads: what is not 0, in rows that are numbered if they are not yet.
+  const auto wrench_of = [&](const Loads& loads) {
+    Entries entries;
+    for (int i = 0; i < packing.disk_count(); ++i) {
+      const auto exact = exact_wrench(packing, loads, i, divisor(DiskId(i)));
+      for (int k = 0; k < 3; ++k) {
+        const mpq_class& value = exact[static_cast<std::size_t>(k)];
+        if (value != 0) entries.emplace_back(number.need(DiskId(i), k), value);
+      }
+    }
+    for (int w = 0; w < packing.wall_count(); ++w) {
+      for (int k = 0; k < 2; ++k) {
+        const double load = loads.on_wall(WallId(w), k);
+        if (load != 0) entries.emplace_back(number.need(WallId(w), k), mpq_class(load));
+      }
+    }
+    for (std::size_t k = 0; k < loads.stress.size(); ++k) {
+      if (row_of_cell_[k] >= 0)
+        entries.emplace_back(row_of_cell_[k], exact_load(packing, loads.stress[k], cell_divisor));
+    }
+    return entries;
+  };
+  Entries wrench = wrench_of(loads_of(packing));
+  Entries changed = change ? wrench_of(*change) : Entries();
   row_of_ = number.all();
   row_of_wall_ = number.of_walls();
   const std::vector<ForceBound> bounds = force_bounds(packing);
@@ -263,6 +276,11 @@ ContactProblem::ContactProblem(const Packing& packing) {
     if (bounds[k].side == ForceBound::Side::kEqual) continue;
     const int sign = bounds[k].side == ForceBound::Side::kLower ? -1 : 1;
     slacks_.push_back(integer_column({{row, mpq_class(sign)}}));
+  }
+  if (change) {
+    slacks_.push_back(integer_column(changed));
+    for (auto& [row, value] : changed) value = -value;
+    slacks_.push_back(integer_column(std::move(changed)));
   }
   for (const auto& [row, value] : wrench) load_scale_ = lcm(load_scale_, value.get_den());
   load_.assign(static_cast<std::size_t>(row_count), 0);

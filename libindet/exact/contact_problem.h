@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libindet/exact/modular_lu.h"
+#include "libindet/packing/loads.h"
 #include "libindet/packing/packing.h"
 
 namespace indet::exact {
@@ -27,10 +28,15 @@ namespace indet::exact {
 /// Unknowns are strengths of cone edges, R = x₊ + x₋, T = μ (x₊ − x₋), x ≥ 0. Edge 2α is x₊ of contact α (R
 /// itself where μ = 0), edge 2α + 1 is x₋ (absent where μ = 0): the numbers of the half-planes in
 /// /extremal/active, each of which is "this edge has strength 0". Edges 2M, 2M + 1, … are the slacks s.
+///
+/// With a change w_1 of the load, which is w + λ w_1 then, the last two edges are the parts of λ = λ₊ − λ₋,
+/// both ≥ 0, with the columns w_1 and −w_1: no basis holds both.
 class ContactProblem {
  public:
   /// Precondition: find_defect(packing) is empty.
-  explicit ContactProblem(const Packing& packing);
+  explicit ContactProblem(const Packing& packing) : ContactProblem(packing, nullptr) {}
+  /// Precondition: defect_of(change, packing) is empty, and the change is not zero.
+  ContactProblem(const Packing& packing, const Loads& change) : ContactProblem(packing, &change) {}
 
   /// The same problem with only those edges, of the ones it has, that are set in `open` (one an edge); the
   /// others are held at 0. Rows, edges and contacts keep their numbers; the rank may fall.
@@ -39,6 +45,9 @@ class ContactProblem {
   int rows() const { return static_cast<int>(load_.size()); }
   int contacts() const { return static_cast<int>(contacts_.size()); }
   int edges() const { return 2 * contacts() + static_cast<int>(slacks_.size()); }
+  /// λ₊ and λ₋. Precondition: the problem has a change of the load.
+  int rise() const { return edges() - 2; }
+  int fall() const { return edges() - 1; }
   bool is_slack(int edge) const { return edge >= 2 * contacts(); }
   bool has_edge(int edge) const { return has_edge_[static_cast<std::size_t>(edge)]; }
   /// The edges that there are, ascending.
@@ -89,6 +98,7 @@ class ContactProblem {
   std::vector<int> choose_basis(std::span<const double> preference) const;
 
  private:
+  ContactProblem(const Packing& packing, const Loads* change);
   struct Contact {
     mpq_class mu;
     IntegerColumn normal, tangential, plus, minus;
@@ -102,7 +112,7 @@ class ContactProblem {
   double compression_scale_ = 1;
   std::vector<Contact> contacts_;
   int first_bound_ = 0;                ///< row
-  std::vector<IntegerColumn> slacks_;  ///< of edges 2M, 2M + 1, …
+  std::vector<IntegerColumn> slacks_;  ///< of edges 2M, 2M + 1, …; then of λ
   std::vector<bool> has_edge_;
   std::vector<mpz_class> load_;
   mpz_class load_scale_ = 1;

@@ -168,6 +168,8 @@ GlpkProblem::Result GlpkProblem::solve(const Settings& settings) {
 
 std::int64_t GlpkProblem::pivots() const { return pivots_; }
 
+double GlpkProblem::column_value(int column) const { return glp_get_col_prim(problem_, column + 1); }
+
 double GlpkProblem::objective_value() const { return glp_get_obj_val(problem_); }
 
 const char* glpk_version() { return glp_version(); }

@@ -1,0 +1,37 @@
+#include "libindet/limit/exact_basis.h"
+
+#include <utility>
+
+#include "libindet/exact/optimum.h"
+
+namespace indet {
+
+std::vector<double> basis_preferences(const exact::ContactProblem& exact, const EquilibriumProblem& problem,
+                                      const std::vector<bool>& basic) {
+  std::vector<double> preferences(static_cast<std::size_t>(exact.edges()), 0);
+  for (int k = 0; k < problem.unknowns(); ++k) {
+    if (basic[static_cast<std::size_t>(k)])
+      preferences[static_cast<std::size_t>(problem.half_plane(problem.edge(k)))] = 1;
+  }
+  return preferences;
+}
+
+SceneForces forces_of(const exact::ContactBasis& basis, int contacts) {
+  Eigen::VectorXd forces(2 * contacts);
+  for (int component = 0; component < forces.size(); ++component)
+    forces[component] = exact::nearest(basis.force(component));
+  return SceneForces(std::move(forces));
+}
+
+ClosedContacts closed_contacts(const exact::ContactBasis& basis, int contacts) {
+  ClosedContacts closed;
+  for (int contact = 0; contact < contacts; ++contact) {
+    const int edges = (basis.sign_of_strength(2 * contact) == 0 ? 1 : 0) +
+                      (basis.sign_of_strength(2 * contact + 1) == 0 ? 1 : 0);
+    closed.edges += edges;
+    closed.contacts += edges == 2 ? 1 : 0;
+  }
+  return closed;
+}
+
+}  // namespace indet

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/exact/contact_basis.h"
+#include "libindet/packing/force.h"
+
+namespace indet {
+
+/// 1 for each edge of the exact problem that is basic in a basis of double precision (one of each edge of
+/// `problem`), else 0: what exact::ContactProblem::choose_basis takes.
+std::vector<double> basis_preferences(const exact::ContactProblem& exact, const EquilibriumProblem& problem,
+                                      const std::vector<bool>& basic);
+
+/// R and T of each contact, rounded.
+SceneForces forces_of(const exact::ContactBasis& basis, int contacts);
+
+/// How many edges have no strength (M_s: a contact without force counts twice), and how many contacts.
+struct ClosedContacts {
+  int edges = 0;
+  int contacts = 0;
+};
+ClosedContacts closed_contacts(const exact::ContactBasis& basis, int contacts);
+
+}  // namespace indet

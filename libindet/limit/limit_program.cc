@@ -1,0 +1,90 @@
+#include "libindet/limit/limit_program.h"
+
+namespace indet {
+namespace {
+
+/// Ways to try in turn: from where the last solve ended by either simplex method, from GLPK's advanced basis,
+/// presolved and rescaled.
+enum Rung : int { kGoOn, kGoOnDual, kCold, kPresolved, kRungs };
+
+LpStatus interpret(GlpkProblem::Result result) {
+  switch (result) {
+    case GlpkProblem::Result::kOptimal:
+      return LpStatus::kOptimal;
+    case GlpkProblem::Result::kUnbounded:
+      return LpStatus::kUnbounded;
+    case GlpkProblem::Result::kInfeasible:
+      return LpStatus::kInfeasible;
+    default:
+      return LpStatus::kFailed;
+  }
+}
+
+}  // namespace
+
+LimitProgram::LimitProgram(const EquilibriumProblem& problem, const LpOptions& options)
+    : problem_(problem), options_(options) {
+  if (!has_change()) return;
+  const double largest = problem.right_hand_sides.col(1).lpNorm<Eigen::Infinity>();
+  if (largest > 0) scale_ = 1 / largest;
+}
+
+void LimitProgram::build() {
+  const int lambda = problem_.unknowns();
+  program_ = std::make_unique<GlpkProblem>(problem_.equations(), lambda + (has_change() ? 1 : 0), true);
+  std::vector<GlpkProblem::Entry> entries;
+  for (int k = 0; k < lambda; ++k) {
+    program_->bound_column(k, GlpkProblem::Bound::kLower, 0);
+    for (Eigen::SparseMatrix<double>::InnerIterator it(problem_.edge_matrix, k); it; ++it) {
+      if (it.value() != 0) entries.push_back({static_cast<int>(it.row()), k, it.value()});
+    }
+  }
+  if (has_change()) program_->bound_column(lambda, GlpkProblem::Bound::kFree, 0);
+  for (int i = 0; i < problem_.equations(); ++i) {
+    program_->bound_row(i, GlpkProblem::Bound::kFixed, problem_.right_hand_sides(i, 0));
+    const double change = has_change() ? problem_.right_hand_sides(i, 1) * scale_ : 0;
+    if (change != 0) entries.push_back({i, lambda, -change});
+  }
+  program_->load(entries);
+  has_basis_ = false;
+}
+
+LpStatus LimitProgram::attempt(int rung) {
+  GlpkProblem::Settings settings;
+  settings.simplex = rung == kGoOnDual ? GlpkProblem::Simplex::kDual : GlpkProblem::Simplex::kPrimal;
+  settings.feasibility = options_.feasibility;
+  settings.optimality = options_.optimality;
+  settings.iteration_limit = options_.iteration_limit;
+  settings.time_limit = options_.time_limit;
+  settings.presolve = rung == kPresolved;
+  if (rung == kCold || rung == kPresolved) program_->advanced_basis();
+  if (rung == kPresolved) program_->scale(true);
+  const LpStatus status = interpret(program_->solve(settings));
+  if (rung == kPresolved) program_->scale(false);
+  return status;
+}
+
+LimitProgram::Answer LimitProgram::find(int sign) {
+  Answer answer;
+  if (!program_) build();
+  for (int rung = has_basis_ ? kGoOn : kCold; rung < kRungs; ++rung) {
+    if (has_change()) program_->set_cost(problem_.unknowns(), sign);
+    try {
+      answer.status = attempt(rung);
+    } catch (const GlpkAborted&) {
+      build();
+      answer.status = LpStatus::kFailed;
+    }
+    if (answer.status != LpStatus::kFailed) break;
+  }
+  has_basis_ = answer.status == LpStatus::kOptimal || answer.status == LpStatus::kUnbounded;
+  answer.basic.resize(static_cast<std::size_t>(problem_.unknowns()));
+  for (int k = 0; k < problem_.unknowns(); ++k)
+    answer.basic[static_cast<std::size_t>(k)] = program_->is_column_basic(k);
+  if (!has_change()) return answer;
+  answer.lambda_is_basic = program_->is_column_basic(problem_.unknowns());
+  answer.lambda_is_negative = program_->column_value(problem_.unknowns()) < 0;
+  return answer;
+}
+
+}  // namespace indet

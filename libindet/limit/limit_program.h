@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "libindet/equilibrium/equilibrium_problem.h"
+#include "libindet/lp/glpk_problem.h"
+#include "libindet/lp/lp_solver.h"
+
+namespace indet {
+
+/// The largest or smallest λ with a state, by one linear program over the cone's edges:
+///
+///   max ± λ   subject to   A x − λ b_1 = b,   x ≥ 0,   λ free
+///
+/// with b_1 the second right-hand side of the problem, in multiples of its largest entry; where it has none,
+/// any state. As everywhere, a basis is taken from GLPK, and no number. To be created, used and destroyed on
+/// one thread.
+class LimitProgram {
+ public:
+  /// The problem must outlive this.
+  explicit LimitProgram(const EquilibriumProblem& problem, const LpOptions& options = {});
+
+  struct Answer {
+    LpStatus status = LpStatus::kFailed;
+    std::vector<bool> basic;       ///< of each edge; of the last point that the simplex method saw
+    bool lambda_is_basic = false;
+    bool lambda_is_negative = false;  ///< a hint, from GLPK's numbers
+  };
+  /// `sign`: +1 the largest λ, −1 the smallest, 0 any state. A second question starts where the first one
+  /// ended.
+  Answer find(int sign);
+
+ private:
+  bool has_change() const { return problem_.right_hand_sides.cols() > 1; }
+  void build();
+  LpStatus attempt(int rung);
+
+  const EquilibriumProblem& problem_;
+  LpOptions options_;
+  double scale_ = 1;  ///< of λ in the program
+  std::unique_ptr<GlpkProblem> program_;
+  bool has_basis_ = false;  ///< the program stands at a feasible point
+};
+
+}  // namespace indet

@@ -1,0 +1,128 @@
+#include "libindet/limit/tilt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "libindet/base/constants.h"
+#include "libindet/base/rounding_bounds.h"
+#include "libindet/limit/tilt_arc.h"
+
+namespace indet {
+namespace {
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+
+/// g turned by multiples of 90°, exactly.
+Vector2 quarter_turned(const Vector2& gravity, int quarters) {
+  switch (((quarters % 4) + 4) % 4) {
+    case 1:
+      return {-gravity.y(), gravity.x()};
+    case 2:
+      return -gravity;
+    case 3:
+      return {gravity.y(), -gravity.x()};
+    default:
+      return gravity;
+  }
+}
+
+/// Forces for a multiple of gravity are the same multiple of those for gravity.
+bool is_homogeneous(Packing packing) {
+  packing.gravity.setZero();
+  const std::vector<ForceBound> bounds = force_bounds(packing);
+  return loads_of(packing).is_zero() && std::all_of(bounds.begin(), bounds.end(), [](const ForceBound& bound) {
+           return bound.value == 0 && !bound.is_two_sided();
+         });
+}
+
+/// Gravity about one of four directions, with λ = tan of the angle to it.
+struct Quarter {
+  Packing packing;
+  Loads change;
+  LoadLimitFinder finder;
+
+  Quarter(Packing turned, Loads turn, const LimitOptions& options)
+      : packing(std::move(turned)), change(std::move(turn)), finder(packing, change, options) {}
+};
+
+class TiltCone {
+ public:
+  TiltCone(const Packing& packing, const LimitOptions& options) : packing_(packing), options_(options) {}
+
+  TiltLimits find() {
+    TiltLimits limits;
+    for (const int quarter : {0, 1, -1, 2}) {
+      limits.largest = end_from(quarter, 1);
+      if (limits.largest.outcome == LimitOutcome::kNoState) continue;
+      limits.smallest = end_from(quarter, -1);
+      if (limits.largest.outcome == LimitOutcome::kNever) limits.smallest.outcome = LimitOutcome::kNever;
+      return limits;
+    }
+    limits.largest = limits.smallest = at(0).find(1);
+    return limits;
+  }
+
+ private:
+  LoadLimitFinder& at(int quarter) {
+    auto& slot = quarters_[quarter];
+    if (!slot) {
+      Packing turned = packing_;
+      turned.gravity = quarter_turned(packing_.gravity, quarter);
+      Loads turn;
+      turn.gravity = quarter_turned(packing_.gravity, quarter + 1);
+      slot = std::make_unique<Quarter>(std::move(turned), std::move(turn), options_);
+    }
+    return slot->finder;
+  }
+
+  /// Where tan has no end about one direction, gravity along the next one is admissible.
+  LimitEnd end_from(int first, int sign) {
+    LimitEnd end;
+    int pivots = 0;
+    for (int k = 0; k < 4; ++k) {
+      const int quarter = first + sign * k;
+      end = at(quarter).find(sign);
+      pivots += end.pivots;
+      // Beyond a half turn, with the other directions of a convex cone, there is no end.
+      if (end.outcome == LimitOutcome::kNever && k < 2) continue;
+      if (end.outcome == LimitOutcome::kReached) to_angle(quarter, end);
+      break;
+    }
+    end.pivots = pivots;
+    return end;
+  }
+
+  static void to_angle(int quarter, LimitEnd& end) {
+    const double start = quarter * kRightAngle;
+    const auto angle = [&](double tangent) { return start + std::atan(tangent); };
+    const double rounding = quarter == 0 ? 4 * kRoundoff * std::abs(angle(end.value)) : 16 * kRoundoff;
+    end.lower = angle(end.lower) - rounding;
+    end.upper = angle(end.upper) + rounding;
+    end.value = angle(end.value);
+  }
+
+  const Packing& packing_;
+  LimitOptions options_;
+  std::map<int, std::unique_ptr<Quarter>> quarters_;
+};
+
+}  // namespace
+
+Vector2 turned_gravity(const Packing& packing, double angle) {
+  const double quarters = std::round(angle / kRightAngle);
+  const double rest = angle - quarters * kRightAngle;
+  const Vector2 g = quarter_turned(packing.gravity, static_cast<int>(quarters));
+  return std::cos(rest) * g + std::sin(rest) * quarter_turned(g, 1);
+}
+
+bool TiltLimits::stands() const { return smallest.upper <= 0 && largest.lower >= 0; }
+
+TiltLimits find_tilt_limits(const Packing& packing, const LimitOptions& options) {
+  if (is_homogeneous(packing)) return TiltCone(packing, options).find();
+  return find_tilt_arc(packing, options);
+}
+
+}  // namespace indet

@@ -1,0 +1,73 @@
+#include "libindet/packing/loads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace indet {
+
+Vector3 Loads::wrench(const Packing& packing, DiskId disk) const {
+  const Disk& body = packing[disk];
+  if (body.fixed) return Vector3::Zero();
+  Vector3 wrench = disks.empty() ? Vector3(0, 0, 0) : disks[static_cast<std::size_t>(disk.value())];
+  wrench.head<2>() += body.mass * gravity;
+  return wrench;
+}
+
+bool Loads::is_zero() const {
+  const auto is_nothing = [](const auto& load) { return load.isZero(0); };
+  return gravity.isZero(0) && std::all_of(disks.begin(), disks.end(), is_nothing) &&
+         std::all_of(walls.begin(), walls.end(), is_nothing) &&
+         std::all_of(stress.begin(), stress.end(), [](double s) { return s == 0; });
+}
+
+Loads loads_of(const Packing& packing) {
+  const auto known = [](double load) { return std::isnan(load) ? 0 : load; };
+  Loads loads;
+  loads.gravity = packing.gravity;
+  for (const Disk& disk : packing.disks) loads.disks.push_back(disk.load);
+  for (const Wall& wall : packing.walls) loads.walls.emplace_back(known(wall.load_n), known(wall.load_t));
+  const auto stress = packing.stress.components();
+  std::transform(stress.begin(), stress.end(), loads.stress.begin(), known);
+  return loads;
+}
+
+std::string defect_of(const Loads& change, const Packing& packing) {
+  for (std::size_t i = 0; i < change.disks.size(); ++i) {
+    if (packing.disks[i].fixed && !change.disks[i].isZero(0))
+      return fmt::format("disk {} is fixed: a force on it does not reach any contact", packing.disks[i].id);
+  }
+  for (std::size_t w = 0; w < change.walls.size(); ++w) {
+    const Wall& wall = packing.walls[w];
+    for (const int k : {0, 1}) {
+      const double load = k == 0 ? wall.load_n : wall.load_t;
+      if (change.walls[w][k] == 0 || !std::isnan(load)) continue;
+      return fmt::format("wall {} is fixed along its {}: a force on it does not reach any contact",
+                         wall_name(wall), k == 0 ? "normal" : "tangent");
+    }
+  }
+  const auto stress = packing.stress.components();
+  for (std::size_t k = 0; k < stress.size(); ++k) {
+    if (change.stress[k] != 0 && std::isnan(stress[k]))
+      return fmt::format("the stress {} is not imposed on the packing", Stress::kNames[k]);
+  }
+  return "";
+}
+
+Packing under(const Loads& change, double lambda, Packing packing) {
+  packing.gravity += lambda * change.gravity;
+  for (std::size_t i = 0; i < change.disks.size(); ++i)
+    packing.disks[i].load += lambda * change.disks[i];
+  for (std::size_t w = 0; w < change.walls.size(); ++w) {
+    packing.walls[w].load_n += lambda * change.walls[w][0];  // NaN stays NaN: it is not free
+    packing.walls[w].load_t += lambda * change.walls[w][1];
+  }
+  for (std::size_t k = 0; k < change.stress.size(); ++k) {
+    double* component = packing.stress.find(Stress::kNames[k]);
+    *component += lambda * change.stress[k];
+  }
+  return packing;
+}
+
+}  // namespace indet
