@@ -61,6 +61,7 @@ struct Command {
 // One file a subcommand.
 Command add_import(CLI::App& root);
 Command add_analyze(CLI::App& root);
+Command add_limit(CLI::App& root);
 Command add_compare(CLI::App& root);
 Command add_inspect(CLI::App& root);
 Command add_verify(CLI::App& root);

@@ -521,6 +521,9 @@ inline constexpr int kIdleIterations = 15;
 /// at which it is proven to fall are this far apart (rad), or somewhat more. Workable: 1e-14 … 1e-6.
 inline constexpr double kTilt = 1e-12;
 
+/// Under a motion with largest entry 1, a contact whose surfaces part, or slide, by less than this rests.
+inline constexpr double kRestingRate = 1e-9;
+
 /// The infimum of the friction factor is enclosed to this, relative to it. Workable: 1e-14 … 1e-6.
 inline constexpr double kFrictionFactor = 1e-12;
 

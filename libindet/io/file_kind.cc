@@ -57,6 +57,8 @@ const char* describe(FileKind kind) {
       return "a packing";
     case FileKind::kRanges:
       return "force ranges";
+    case FileKind::kLimits:
+      return "limits of loads";
     case FileKind::kSamples:
       return "samples of contact states";
     case FileKind::kCheckpoint:
@@ -90,6 +92,7 @@ FileKind kind_of(const Hdf5File& file) {
   if (file.has("/ensemble")) return FileKind::kMember;
   if (file.has("/checkpoint")) return FileKind::kCheckpoint;
   if (file.has("/ranges")) return FileKind::kRanges;
+  if (file.has("/limits")) return FileKind::kLimits;
   if (file.has("/sampling")) return FileKind::kSamples;
   if (has_vtkhdf(file) && !file.has("/contacts")) return FileKind::kVtk;
   return FileKind::kPacking;

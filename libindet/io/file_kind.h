@@ -12,6 +12,7 @@ namespace indet {
 enum class FileKind {
   kPacking,       ///< import, simulate
   kRanges,        ///< analyze
+  kLimits,        ///< limit
   kSamples,       ///< sample
   kCheckpoint,    ///< simulate, on its way
   kMember,        ///< ensemble: one packing with all that is known of it

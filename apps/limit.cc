@@ -1,0 +1,108 @@
+#include "libindet/limit/limit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/command.h"
+#include "apps/limit_report.h"
+#include "apps/load_arguments.h"
+#include "apps/output_files.h"
+#include "apps/packing_input.h"
+#include "apps/say.h"
+#include "libindet/base/error.h"
+#include "libindet/io/limits_file.h"
+#include "libindet/lp/glpk_problem.h"
+
+namespace indet::app {
+namespace {
+
+struct LimitCommand {
+  std::string packing;
+  std::string output;
+  bool overwrite = false;
+  bool tilt = false;
+  std::vector<std::string> loads;
+};
+
+int run(const LimitCommand& options, const Context& context) {
+  if (!options.tilt && options.loads.empty())
+    throw UsageError("limit needs to know what to vary: --tilt, or --load");
+  const Packing packing = read_packing(open_packing(options.packing));
+  std::filesystem::path output = options.output;
+  if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".limits.h5");
+  claim_output(output, FileKind::kLimits, replacement_rule({options.packing}, options.overwrite, context));
+  if (options.tilt && packing.gravity.isZero(0))
+    throw InputError(fmt::format("{}: --tilt turns gravity, and there is none", options.packing));
+  std::vector<Loads> changes;
+  for (const std::string& text : options.loads) changes.push_back(parse_load(text, packing));
+
+  Provenance provenance;
+  provenance.arguments = context.arguments;
+  provenance.config = context.resolved_config;
+  provenance.libraries["GLPK"] = glpk_version();
+  std::vector<Limit> limits;
+  const auto progress = context.progress();
+  const auto total = static_cast<std::int64_t>(changes.size() + (options.tilt ? 1 : 0));
+  const auto add = [&](auto find) {
+    if (progress && !progress({"limits", static_cast<std::int64_t>(limits.size()), total, ""}))
+      throw Interrupted();
+    const auto start = std::chrono::steady_clock::now();
+    limits.push_back(find());
+    provenance.seconds[fmt::format("limit {}", limits.size() - 1)] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  if (options.tilt) add([&] { return find_tilt(packing); });
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    add([&] { return find_load(packing, options.loads[k], changes[k]); });
+  write_limits(output, packing, limits, provenance);
+
+  if (context.json) {
+    nlohmann::json json = limits_to_json(packing, limits);
+    json["file"] = output.string();
+    std::cout << json.dump(2) << '\n';
+  } else if (context.prints_report()) {
+    say("{}: {}, {}\n", options.packing, describe_disks(packing),
+        counted(packing.contact_count(), "contact"));
+    print_limits(packing, limits);
+    say("written: {}\n", output.string());
+  }
+  const auto is_decided = [](const Limit& limit) { return limit.is_decided(); };
+  if (!std::all_of(limits.begin(), limits.end(), is_decided)) return kUncertain;
+  const auto stands = [](const Limit& limit) { return limit.stands(); };
+  return std::all_of(limits.begin(), limits.end(), stands) ? kDone : kNoAdmissibleState;
+}
+
+}  // namespace
+
+Command add_limit(CLI::App& root) {
+  CLI::App* command = root.add_subcommand(
+      "limit", "Find how far a packing can be tilted, or loaded, before no contact forces balance it");
+  const auto options = std::make_shared<LimitCommand>();
+  command->add_option("packing", options->packing, "HDF5 file of a packing, from simulate or import")
+      ->required()
+      ->type_name("P.h5");
+  command->add_option("-o,--output", options->output, "File to write (default: P.limits.h5 beside P.h5)")
+      ->type_name("L.h5");
+  add_overwrite_option(*command, options->overwrite);
+  command->add_flag("--tilt", options->tilt,
+                    "By what angles gravity can be turned, both ways, while all else stays as it is");
+  command
+      ->add_option("--load", options->loads,
+                   "What multiple, positive or negative, of this load can act beside what acts already: "
+                   "disk=ID,fx,fy[,torque], wall=NAME,normal,tangential of a loaded wall, gravity=gx,gy, "
+                   "stress=xx,yy,xy, several joined by +, or the name of a TOML file; in the units of the "
+                   "scene. May be given several times, for a limit each")
+      ->type_name("LOAD")
+      ->allow_extra_args(false);
+  return {command, [options](const Context& context) { return run(*options, context); }};
+}
+
+}  // namespace indet::app

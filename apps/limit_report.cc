@@ -1,0 +1,162 @@
+#include "apps/limit_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "apps/ranges_json.h"
+#include "apps/say.h"
+#include "apps/wording.h"
+#include "libindet/base/constants.h"
+#include "libindet/limit/mechanism.h"
+
+namespace indet::app {
+namespace {
+
+constexpr std::size_t kMostNamed = 8;  ///< disks
+
+std::string number_text(const Limit& limit, double value) {
+  if (limit.kind == LimitKind::kTilt) return fmt::format("{:.6g}°", value * 180 / std::numbers::pi);
+  return fmt::format("{:.10g}", value);
+}
+
+/// How wide the proven interval of an end is.
+std::string width_text(const Limit& limit, const LimitEnd& end) {
+  const double width = end.upper - end.lower;
+  return fmt::format("{:.1e}{}", width, limit.kind == LimitKind::kTilt ? " rad" : "");
+}
+
+std::string disks_text(const Packing& packing, const std::vector<DiskId>& disks) {
+  std::string text = counted(std::ssize(disks), "disk");
+  text += std::ssize(disks) == 1 ? " moves" : " move";
+  std::string names;
+  for (std::size_t k = 0; k < std::min(disks.size(), kMostNamed); ++k)
+    names += fmt::format("{}{}", k == 0 ? "" : ", ", packing[disks[k]].id);
+  if (disks.size() > kMostNamed) names += ", …";
+  return names.empty() ? text : fmt::format("{} ({})", text, names);
+}
+
+struct MotionCount {
+  int open = 0, slide = 0;
+};
+MotionCount count_motions(const Packing& packing, const exact::BodyMotion& motion) {
+  MotionCount count;
+  for (const ContactMotion what : contact_motions(packing, motion)) {
+    count.open += what == ContactMotion::kOpens ? 1 : 0;
+    count.slide += what == ContactMotion::kSlides ? 1 : 0;
+  }
+  return count;
+}
+
+void print_end(const Packing& packing, const Limit& limit, const LimitEnd& end, bool is_largest) {
+  const char* name = is_largest ? "largest" : "smallest";
+  switch (end.outcome) {
+    case LimitOutcome::kReached:
+      say("  {:<9} {} (proven to {})\n", name, number_text(limit, end.value), width_text(limit, end));
+      break;
+    case LimitOutcome::kNever:
+      say("  {:<9} never: {}\n", name,
+          limit.kind == LimitKind::kTilt ? "it stands whichever way gravity points"
+                                         : "it stands under any multiple of the load");
+      return;
+    case LimitOutcome::kNoState:
+      return;
+    case LimitOutcome::kUndecided:
+      if (end.lower > -kInfinity && end.upper < kInfinity)
+        say("  {:<9} between {} and {}\n", name, number_text(limit, end.lower),
+            number_text(limit, end.upper));
+      else
+        say("  {:<9} undecided\n", name);
+      return;
+  }
+  if (end.motion.disks.rows() == 0) return;
+  const MotionCount count = count_motions(packing, end.motion);
+  say("            there {}: {} open, {} slide{}\n", disks_text(packing, moving_disks(end.motion)),
+      counted(count.open, "contact"), count.slide,
+      end.has_one_mechanism ? "" : "; other motions may be possible, too");
+  if (end.sliding >= 0)
+    say("            {}, {}{}\n", describe_sliding(end.sliding, end.non_transmitting),
+        describe_expected_dimension(packing), end.dim < 0 ? "" : fmt::format("; dim F = {}", end.dim));
+}
+
+void print_limit(const Packing& packing, const Limit& limit) {
+  if (limit.kind == LimitKind::kTilt)
+    say("tilt: gravity turned counter-clockwise\n");
+  else
+    say("load {}: a multiple of it acts, too\n", limit.load);
+  if (limit.largest.outcome == LimitOutcome::kNoState) {
+    say("  no contact forces balance it{}\n",
+        limit.kind == LimitKind::kTilt
+            ? limit.is_first_of_several ? " as it stands" : ", whichever way gravity points"
+            : ", whatever the multiple");
+    say("            {}\n", disks_text(packing, moving_disks(limit.largest.motion)));
+    return;
+  }
+  if (limit.is_decided() && !limit.stands()) say("  it cannot stand as it is, only between these\n");
+  print_end(packing, limit, limit.smallest, false);
+  print_end(packing, limit, limit.largest, true);
+  if (limit.is_first_of_several)
+    say("  something acts that does not turn with gravity: further on it may stand again\n");
+}
+
+std::string status_of(const Limit& limit) {
+  if (!limit.is_decided()) return "undecided";
+  if (limit.largest.outcome == LimitOutcome::kNoState) return "no state";
+  return limit.stands() ? "stands" : "does not stand";
+}
+
+nlohmann::json end_to_json(const Packing& packing, const LimitEnd& end) {
+  nlohmann::json json = {{"outcome", to_string(end.outcome)}};
+  if (end.sliding >= 0) {
+    json["sliding"] = end.sliding;
+    json["non_transmitting"] = end.non_transmitting;
+  }
+  if (end.dim >= 0) json["dim"] = end.dim;
+  if (end.motion.disks.rows() > 0) {
+    const MotionCount count = count_motions(packing, end.motion);
+    json["opening"] = count.open;
+    json["slipping"] = count.slide;
+    json["moving_disks"] = nlohmann::json::array();
+    for (const DiskId disk : moving_disks(end.motion)) json["moving_disks"].push_back(packing[disk].id);
+    json["one_mechanism"] = end.has_one_mechanism;
+  }
+  return json;
+}
+
+}  // namespace
+
+void print_limits(const Packing& packing, const std::vector<Limit>& limits) {
+  bool has_mechanism = false;
+  for (const Limit& limit : limits) {
+    print_limit(packing, limit);
+    for (const LimitEnd* end : {&limit.smallest, &limit.largest})
+      has_mechanism = has_mechanism || end->outcome == LimitOutcome::kReached;
+  }
+  if (has_mechanism)
+    say("motions are those of associated sliding: a contact that slides opens by μ times as much. A real "
+        "packing\n"
+        "may yield before these limits, never after.\n");
+}
+
+nlohmann::json limits_to_json(const Packing& packing, const std::vector<Limit>& limits) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Limit& limit : limits) {
+    nlohmann::json json = {
+        {"load", limit.load},
+        {"unit", limit.kind == LimitKind::kTilt ? "rad" : "1"},
+        {"smallest", json_number(limit.smallest.value)},
+        {"largest", json_number(limit.largest.value)},
+        {"smallest_bounds", {json_number(limit.smallest.lower), json_number(limit.smallest.upper)}},
+        {"largest_bounds", {json_number(limit.largest.lower), json_number(limit.largest.upper)}},
+        {"first_of_several", limit.is_first_of_several},
+        {"status", status_of(limit)},
+        {"at_smallest", end_to_json(packing, limit.smallest)},
+        {"at_largest", end_to_json(packing, limit.largest)}};
+    list.push_back(std::move(json));
+  }
+  return {{"limits", list}};
+}
+
+}  // namespace indet::app
