@@ -8,6 +8,8 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +31,15 @@ struct LimitCommand {
   std::string output;
   bool overwrite = false;
   bool tilt = false;
+  std::optional<double> ignore_below;  ///< degrees
   std::vector<std::string> loads;
 };
 
 int run(const LimitCommand& options, const Context& context) {
   if (!options.tilt && options.loads.empty())
     throw UsageError("limit needs to know what to vary: --tilt, or --load");
+  if (options.ignore_below && !options.tilt)
+    throw UsageError("--ignore-below has no effect without --tilt, whose angles it is about");
   const Packing packing = read_packing(open_packing(options.packing));
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".limits.h5");
@@ -59,7 +64,8 @@ int run(const LimitCommand& options, const Context& context) {
     provenance.seconds[fmt::format("limit {}", limits.size() - 1)] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  if (options.tilt) add([&] { return find_tilt(packing); });
+  if (options.tilt)
+    add([&] { return find_tilt(packing, options.ignore_below.value_or(0) * std::numbers::pi / 180); });
   for (std::size_t k = 0; k < changes.size(); ++k)
     add([&] { return find_load(packing, options.loads[k], changes[k]); });
   write_limits(output, packing, limits, provenance);
@@ -94,6 +100,13 @@ Command add_limit(CLI::App& root) {
   add_overwrite_option(*command, options->overwrite);
   command->add_flag("--tilt", options->tilt,
                     "By what angles gravity can be turned, both ways, while all else stays as it is");
+  command
+      ->add_option(
+          "--ignore-below", options->ignore_below,
+          "--tilt: take out, one after the other, disks that alone move at an angle below this (in "
+          "degrees), if the packing stands without them; their weight goes with them, and each is named")
+      ->type_name("ANGLE")
+      ->check(CLI::Range(0.0, 180.0));
   command
       ->add_option("--load", options->loads,
                    "What multiple, positive or negative, of this load can act beside what acts already: "

@@ -81,11 +81,14 @@ void print_end(const Packing& packing, const Limit& limit, const LimitEnd& end, 
         describe_expected_dimension(packing), end.dim < 0 ? "" : fmt::format("; dim F = {}", end.dim));
 }
 
-void print_limit(const Packing& packing, const Limit& limit) {
+void print_limit(const Packing& whole, const Limit& limit) {
+  const Packing packing = without(whole, limit.left_out);
   if (limit.kind == LimitKind::kTilt)
     say("tilt: gravity turned counter-clockwise\n");
   else
     say("load {}: a multiple of it acts, too\n", limit.load);
+  for (const DiskId disk : limit.left_out)
+    say("  without disk {}, which carries no other and rolls away first\n", whole[disk].id);
   if (limit.largest.outcome == LimitOutcome::kNoState) {
     say("  no contact forces balance it{}\n",
         limit.kind == LimitKind::kTilt
@@ -107,7 +110,11 @@ std::string status_of(const Limit& limit) {
   return limit.stands() ? "stands" : "does not stand";
 }
 
-nlohmann::json end_to_json(const Packing& packing, const LimitEnd& end) {
+MotionCount count_motions(const Packing& packing, const Limit& limit, const LimitEnd& end) {
+  return count_motions(without(packing, limit.left_out), end.motion);
+}
+
+nlohmann::json end_to_json(const Packing& packing, const Limit& limit, const LimitEnd& end) {
   nlohmann::json json = {{"outcome", to_string(end.outcome)}};
   if (end.sliding >= 0) {
     json["sliding"] = end.sliding;
@@ -115,7 +122,7 @@ nlohmann::json end_to_json(const Packing& packing, const LimitEnd& end) {
   }
   if (end.dim >= 0) json["dim"] = end.dim;
   if (end.motion.disks.rows() > 0) {
-    const MotionCount count = count_motions(packing, end.motion);
+    const MotionCount count = count_motions(packing, limit, end);
     json["opening"] = count.open;
     json["slipping"] = count.slide;
     json["moving_disks"] = nlohmann::json::array();
@@ -152,8 +159,10 @@ nlohmann::json limits_to_json(const Packing& packing, const std::vector<Limit>& 
         {"largest_bounds", {json_number(limit.largest.lower), json_number(limit.largest.upper)}},
         {"first_of_several", limit.is_first_of_several},
         {"status", status_of(limit)},
-        {"at_smallest", end_to_json(packing, limit.smallest)},
-        {"at_largest", end_to_json(packing, limit.largest)}};
+        {"at_smallest", end_to_json(packing, limit, limit.smallest)},
+        {"at_largest", end_to_json(packing, limit, limit.largest)}};
+    json["left_out"] = nlohmann::json::array();
+    for (const DiskId disk : limit.left_out) json["left_out"].push_back(packing[disk].id);
     list.push_back(std::move(json));
   }
   return {{"limits", list}};

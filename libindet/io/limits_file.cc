@@ -71,6 +71,10 @@ void write_limit(Hdf5File& file, const std::string& group, const Packing& packin
   file.set_attribute(group, "kind", to_string(limit.kind));
   file.set_attribute(group, "load", limit.load);
   file.set_attribute(group, "first_of_several", limit.is_first_of_several ? 1 : 0);
+  std::vector<std::int32_t> left_out;
+  for (const DiskId disk : limit.left_out) left_out.push_back(disk.value());
+  file.write(group + "/left_out", std::span<const std::int32_t>(left_out), {left_out.size()},
+             {"1", "rows of disks that were taken out first, in this order"});
   const auto numbers = [&](const char* name, const char* meaning, auto get) {
     const auto values = both<double>(limit, get);
     file.write(group + "/" + name, std::span<const double>(values), {kEnds}, {unit, meaning});
@@ -134,6 +138,12 @@ class LimitReader {
     limit.kind = *found;
     limit.load = file_.string_attribute(group_, "load");
     limit.is_first_of_several = file_.integer_attribute(group_, "first_of_several") != 0;
+    for (const std::int32_t disk :
+         file_.read_integers(group_ + "/left_out", file_.shape(group_ + "/left_out", 1))) {
+      if (disk < 0 || disk >= packing_.disk_count())
+        fail("/left_out", fmt::format("there is no disk {}", disk));
+      limit.left_out.emplace_back(disk);
+    }
     const auto outcomes = file_.read_enum(group_ + "/outcome", {kEnds}, kLimitOutcomes);
     for (const std::size_t k : {0, 1}) {
       LimitEnd& end = k == 0 ? limit.smallest : limit.largest;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "libindet/limit/load_limits.h"
 #include "libindet/packing/loads.h"
@@ -24,6 +25,8 @@ struct Limit {
   LimitEnd smallest, largest;
   /// Of kTilt: something takes part that does not turn with gravity, so that it may stand again further on.
   bool is_first_of_several = false;
+  /// Disks that were taken out, in this order: forces of their contacts are 0, and they do not move.
+  std::vector<DiskId> left_out;
 
   /// It stands as it is.
   bool stands() const { return smallest.upper <= 0 && largest.lower >= 0; }
@@ -32,10 +35,17 @@ struct Limit {
   }
 };
 
-Limit find_tilt(const Packing& packing, const LimitOptions& options = {});
+/// The packing without some disks: they are fixed, and have no contacts. Their weight goes with them; the
+/// unit of force stays.
+Packing without(Packing packing, const std::vector<DiskId>& disks);
+
+/// A disk that lies loosely on others rolls away at a small angle, which says little about the packing. So as
+/// long as a mechanism moves one disk alone, at an angle below `ignore_below` (rad), and the packing stands
+/// without it (it carries no other), that disk is taken out.
+Limit find_tilt(const Packing& packing, double ignore_below = 0, const LimitOptions& options = {});
 Limit find_load(const Packing& packing, std::string name, Loads change, const LimitOptions& options = {});
 
-/// The packing under the load of one of its ends. Precondition: that is reached.
+/// The packing, without what was left out, under the load of one of its ends. Precondition: that is reached.
 Packing at_end(const Packing& packing, const Limit& limit, const LimitEnd& end);
 
 }  // namespace indet
