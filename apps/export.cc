@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +22,10 @@
 #include "apps/packing_input.h"
 #include "apps/say.h"
 #include "libindet/base/error.h"
+#include "libindet/drawing/mechanism_picture.h"
 #include "libindet/drawing/packing_picture.h"
 #include "libindet/io/csv_writer.h"
+#include "libindet/io/limits_file.h"
 #include "libindet/io/ovito_files.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/table.h"
@@ -38,6 +41,7 @@ struct ExportOptions {
   std::string format;
   std::string state = "sim";
   std::string style = "forces";
+  std::string limit = "largest";
   std::string output;
   bool overwrite = false;
 };
@@ -47,6 +51,51 @@ struct ChosenState {
   Eigen::VectorXd forces;
   std::string description;
 };
+
+/// What --limit says: which end of which limit of the file.
+struct LimitName {
+  std::int64_t number = 0;
+  bool is_largest = true;
+};
+std::optional<LimitName> parse_limit(const std::string& text) {
+  LimitName name;
+  std::string end = text;
+  if (const std::size_t colon = text.find(':'); colon != std::string::npos) {
+    if (!parse_number(std::string_view(text).substr(0, colon), &name.number) || name.number < 0) return {};
+    end = text.substr(colon + 1);
+  }
+  if (end != "largest" && end != "smallest") return {};
+  name.is_largest = end == "largest";
+  return name;
+}
+
+/// A limit of the file, and which end of it is meant.
+struct ChosenLimit {
+  Limit limit;
+  bool is_largest = true;
+
+  const LimitEnd& end() const { return is_largest ? limit.largest : limit.smallest; }
+  std::string description() const {
+    if (end().outcome != LimitOutcome::kReached)
+      return fmt::format("{} {}: {}", limit.load, is_largest ? "largest" : "smallest",
+                         to_string(end().outcome));
+    const bool is_angle = limit.kind == LimitKind::kTilt;
+    return fmt::format("{} of {:.5g}{}", limit.load,
+                       is_angle ? end().value * 180 / std::numbers::pi : end().value, is_angle ? "°" : "");
+  }
+};
+
+ChosenLimit choose_limit(const ExportOptions& options, const Hdf5File& file, const std::string& what) {
+  if (!has_limits(file))
+    throw InputError(
+        fmt::format("{0}: {1} needs limits; compute them first: indet limit {0} --tilt", options.file, what));
+  const LimitName name = parse_limit(options.limit).value();
+  std::vector<Limit> limits = read_limits(file);
+  if (name.number >= std::ssize(limits))
+    throw InputError(fmt::format("{}: there is no limit {}; the file has {}", options.file, name.number,
+                                 counted(std::ssize(limits), "limit")));
+  return {std::move(limits[static_cast<std::size_t>(name.number)]), name.is_largest};
+}
 
 const ForceRanges& need_ranges(const std::optional<ForceRanges>& ranges, const std::string& file,
                                const std::string& what) {
@@ -62,7 +111,7 @@ struct StateName {
 };
 
 std::optional<StateName> parse_state(const std::string& text) {
-  if (text == "sim" || text == "max-norm") return StateName{text};
+  if (text == "sim" || text == "max-norm" || text == "limit") return StateName{text};
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return {};
   StateName name{text.substr(0, colon)};
@@ -73,9 +122,17 @@ std::optional<StateName> parse_state(const std::string& text) {
   return {};
 }
 
-ChosenState choose_state(const ExportOptions& options, const Packing& packing,
+ChosenState choose_state(const ExportOptions& options, const Hdf5File& file, const Packing& packing,
                          const std::optional<ForceRanges>& ranges) {
   const StateName name = parse_state(options.state).value();
+  if (name.kind == "limit") {
+    const ChosenLimit chosen = choose_limit(options, file, "--state limit");
+    const Eigen::VectorXd& forces = chosen.end().forces.value();
+    if (forces.size() == 0)
+      throw InputError(
+          fmt::format("{}: no contact forces are known there: {}", options.file, chosen.description()));
+    return {forces, "state at " + chosen.description()};
+  }
   if (name.kind == "sim") {
     Eigen::VectorXd forces = packing.simulated_forces().value();
     const auto known = forces.array().isFinite().count();
@@ -163,6 +220,22 @@ void write_numbers(const std::filesystem::path& output, const std::string& forma
   }
 }
 
+/// The motion at a limit, or of a packing that cannot stand.
+void export_mechanism(const std::filesystem::path& output, const ExportOptions& options, const Hdf5File& file,
+                      const Packing& packing, const std::optional<ForceRanges>& ranges) {
+  if (!has_limits(file) && ranges && ranges->motion.rows() > 0) {
+    const exact::BodyMotion motion{ranges->motion, ranges->wall_motion, ranges->cell_motion,
+                                   ranges->bound_multipliers};
+    draw_mechanism(output, packing, motion, caption(options, packing, "how it falls"));
+    return;
+  }
+  const ChosenLimit chosen = choose_limit(options, file, "--style mechanism");
+  if (chosen.end().motion.disks.rows() == 0)
+    throw InputError(fmt::format("{}: nothing moves there: {}", options.file, chosen.description()));
+  draw_mechanism(output, without(packing, chosen.limit.left_out), chosen.end().motion,
+                 caption(options, packing, "mechanism at " + chosen.description()));
+}
+
 int run(ExportOptions options, const Context& context) {
   const Hdf5File file = open_packing(options.file);
   const Packing packing = read_packing(file);
@@ -184,11 +257,13 @@ int run(ExportOptions options, const Context& context) {
         "{}: must end with .extxyz, for the bonds go to a second file, of this name with .bonds.dump",
         options.output));
   }
-  const ChosenState state = choose_state(options, packing, ranges);
+  const ChosenState state = choose_state(options, file, packing, ranges);
   const std::filesystem::path output = options.output;
   claim_outputs(output, format, replacement_rule({options.file}, options.overwrite, context));
   if (!is_picture) {
     write_numbers(output, format, packing, state, ranges ? &*ranges : nullptr, context);
+  } else if (options.style == "mechanism") {
+    export_mechanism(output, options, file, packing, ranges);
   } else if (options.style == "delta-R") {
     const ForceRanges& r = need_ranges(ranges, options.file, "--style delta-R");
     const std::string range = "range of the normal force of each contact";
@@ -213,7 +288,7 @@ int run(ExportOptions options, const Context& context) {
 Command add_export(CLI::App& root) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = root.add_subcommand("export", "Draw a packing, or write it for other programs");
-  command->add_option("file", options->file, "HDF5 file of a packing, with or without force ranges")
+  command->add_option("file", options->file, "HDF5 file of a packing, with or without force ranges or limits")
       ->required()
       ->type_name("FILE.h5");
   command
@@ -222,12 +297,13 @@ Command add_export(CLI::App& root) {
       ->check(CLI::IsMember(std::vector<std::string>(kFormats.begin(), kFormats.end())));
   const auto check_state = [](const std::string& text) -> std::string {
     if (parse_state(text)) return "";
-    return "must be sim, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C";
+    return "must be sim, limit, max-norm, state:K, or R_min:C, R_max:C, T_min:C, T_max:C of contact C";
   };
   command
       ->add_option(
           "--state", options->state,
-          "Which contact forces to show. sim: as simulated; max-norm: the extremal state of largest norm; "
+          "Which contact forces to show. sim: as simulated; limit: those at the limit of --limit; max-norm: "
+          "the extremal state of largest norm; "
           "state:K: extremal state K of the file; R_min:C, R_max:C, T_min:C, T_max:C: the state in which "
           "that force of contact C is extremal")
       ->check(CLI::Validator(check_state, "STATE"))
@@ -236,8 +312,19 @@ Command add_export(CLI::App& root) {
       ->add_option(
           "--style", options->style,
           "What a picture shows. forces: the contact forces of the state; delta-R: the range of each normal "
-          "force as a colour")
-      ->check(CLI::IsMember({"forces", "delta-R"}))
+          "force as a colour; mechanism: how the disks move at the limit of --limit, or, with force ranges, "
+          "how "
+          "a packing falls that cannot stand")
+      ->check(CLI::IsMember({"forces", "delta-R", "mechanism"}))
+      ->capture_default_str();
+  const auto check_limit = [](const std::string& text) -> std::string {
+    return parse_limit(text) ? "" : "must be largest or smallest, or K:largest, K:smallest of limit K";
+  };
+  command
+      ->add_option("--limit", options->limit,
+                   "Which end of which limit --state limit and --style mechanism mean: largest, smallest, or "
+                   "K:largest, K:smallest of limit K of the file, from 0 on")
+      ->check(CLI::Validator(check_limit, "LIMIT"))
       ->capture_default_str();
   command->add_option(
       "-o,--output", options->output,

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "libindet/io/limits_file.h"
 #include "libindet/io/ranges_file.h"
 
 namespace indet::app {
@@ -33,6 +34,7 @@ FileContents read_contents(const Hdf5File& file) {
   for_balance.packing = contents.packing;
   contents.balance = report_balance(for_balance);
   if (has_ranges(file)) contents.ranges = read_ranges(file);
+  if (has_limits(file)) contents.limits = read_limits(file);
   contents.digests = compute_digests(file);
   for (const char* name : {"version", "git", "compiler", "host", "created"}) {
     contents.provenance[name] = file.string_attribute("/provenance", name);

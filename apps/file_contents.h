@@ -6,9 +6,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libindet/io/balance.h"
 #include "libindet/io/packing_file.h"
+#include "libindet/limit/limit.h"
 #include "libindet/packing/packing.h"
 #include "libindet/range/force_ranges.h"
 
@@ -36,6 +38,7 @@ struct FileContents {
   Packing packing;
   BalanceReport balance;
   std::optional<ForceRanges> ranges;
+  std::vector<Limit> limits;
   std::optional<Account> simulation, sampling;
   std::optional<TrajectoryExtent> trajectory;
   Digests digests;

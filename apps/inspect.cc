@@ -21,6 +21,7 @@
 #include "apps/estimate_report.h"
 #include "apps/file_contents.h"
 #include "apps/kept_states.h"
+#include "apps/limit_report.h"
 #include "apps/packing_input.h"
 #include "apps/paper_work.h"
 #include "apps/ranges_json.h"
@@ -106,6 +107,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
                           {"start", contents.trajectory->start},
                           {"end", contents.trajectory->end}};
   }
+  if (!contents.limits.empty()) json.update(limits_to_json(packing, contents.limits));
   if (contents.ranges) {
     const ForceRanges& r = *contents.ranges;
     json["ranges_sha256"] = contents.digests.ranges;
@@ -361,12 +363,13 @@ int run(const std::string& given, const Context& context) {
                            contents.trajectory->start, contents.trajectory->end));
   }
   if (contents.sampling) print_sampling(*contents.sampling);
+  if (!contents.limits.empty()) print_limits(contents.packing, contents.limits);
   if (contents.ranges) {
     print_ranges(*contents.ranges);
     print_reactions(contents.packing, *contents.ranges);
     print_line("  SHA-256", contents.digests.ranges);
   } else {
-    print_line("force ranges", "none yet: indet analyze " + path);
+    if (contents.limits.empty()) print_line("force ranges", "none yet: indet analyze " + path);
   }
   print_line("written", fmt::format("{} on {} by indet {} ({}, {})", contents.provenance.at("created"),
                                     contents.provenance.at("host"), contents.provenance.at("version"),

@@ -17,6 +17,7 @@
 #include "apps/say.h"
 #include "libindet/io/bias_file.h"
 #include "libindet/io/file_kind.h"
+#include "libindet/io/limits_file.h"
 #include "libindet/io/packing_file.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/io/sampling_file.h"
@@ -24,6 +25,7 @@
 #include "libindet/verify/bias_check.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/exact_check.h"
+#include "libindet/verify/limits_check.h"
 #include "libindet/verify/outcome_check.h"
 #include "libindet/verify/samples_check.h"
 #include "libindet/verify/vtk_check.h"
@@ -53,7 +55,7 @@ Verification check_digests(const Hdf5File& file) {
   return compare.result();
 }
 
-std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
+std::vector<Part> verify_file(const Hdf5File& file, bool exact, const Context& context) {
   std::vector<Part> parts = {{"file", check_digests(file)}};
   if (kind_of(file) == FileKind::kEnsemble) {
     parts.front().found.unchecked.emplace_back("tables of the ensemble (verify its members instead)");
@@ -68,6 +70,7 @@ std::vector<Part> verify_file(const Hdf5File& file, const Context& context) {
     parts.push_back({"force ranges", verify_ranges(packing, *ranges, context.progress())});
     if (has_vtkhdf(file)) parts.push_back({"/VTKHDF", verify_vtkhdf(file, packing, *ranges)});
   }
+  if (has_limits(file)) parts.push_back({"/limits", verify_limits(packing, read_limits(file), exact)});
   const ForceRanges* known = ranges ? &*ranges : nullptr;
   const auto check_samples = [&](const std::string& group, std::optional<SamplingRecord>& record) {
     record = read_sampling(file, group);
@@ -166,12 +169,12 @@ void print_exact(const ExactCheck& check, const ForceRanges& ranges, double seco
 int run(const VerifyCommand& options, const Context& context) {
   const std::string& path = options.file;
   const Hdf5File file = open_packing_or_ensemble(path);
-  const std::vector<Part> parts = verify_file(file, context);
+  const std::vector<Part> parts = verify_file(file, options.exact, context);
   const Verification result = total_of(parts);
   std::optional<ExactCheck> check;
   std::optional<ForceRanges> ranges;
   double seconds = 0;
-  if (options.exact) {
+  if (options.exact && !(has_limits(file) && !has_ranges(file))) {
     const auto start = std::chrono::steady_clock::now();
     ranges = read_ranges(file);
     ExactCheckOptions exact;
@@ -209,14 +212,15 @@ int run(const VerifyCommand& options, const Context& context) {
 }  // namespace
 
 Command add_verify(CLI::App& root) {
-  CLI::App* command = root.add_subcommand("verify",
-                                          "Re-check the ranges and samples of a file from its packing alone, "
-                                          "by other means than those that made them");
+  CLI::App* command =
+      root.add_subcommand("verify",
+                          "Re-check the ranges, limits and samples of a file from its packing alone, "
+                          "by other means than those that made them");
   const auto options = std::make_shared<VerifyCommand>();
   command->add_option("file", options->file, "The file to check")->required()->type_name("FILE.h5");
-  command->add_flag(
-      "--exact", options->exact,
-      "Prove every range in rational arithmetic, with the numbers of the packing taken as they are");
+  command->add_flag("--exact", options->exact,
+                    "Prove every range and limit in rational arithmetic, with the numbers of the packing "
+                    "taken as they are");
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

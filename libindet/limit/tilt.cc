@@ -33,9 +33,9 @@ Vector2 quarter_turned(const Vector2& gravity, int quarters) {
 bool is_homogeneous(Packing packing) {
   packing.gravity.setZero();
   const std::vector<ForceBound> bounds = force_bounds(packing);
-  return loads_of(packing).is_zero() && std::all_of(bounds.begin(), bounds.end(), [](const ForceBound& bound) {
-           return bound.value == 0 && !bound.is_two_sided();
-         });
+  return loads_of(packing).is_zero() &&
+         std::all_of(bounds.begin(), bounds.end(),
+                     [](const ForceBound& bound) { return bound.value == 0 && !bound.is_two_sided(); });
 }
 
 /// Gravity about one of four directions, with λ = tan of the angle to it.
@@ -99,6 +99,8 @@ class TiltCone {
     const double start = quarter * kRightAngle;
     const auto angle = [&](double tangent) { return start + std::atan(tangent); };
     const double rounding = quarter == 0 ? 4 * kRoundoff * std::abs(angle(end.value)) : 16 * kRoundoff;
+    // The load there is that of g + t g⊥, which is longer than g.
+    end.forces = SceneForces(end.forces.value() / std::hypot(1, end.value));
     end.lower = angle(end.lower) - rounding;
     end.upper = angle(end.upper) + rounding;
     end.value = angle(end.value);

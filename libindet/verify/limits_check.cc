@@ -1,0 +1,296 @@
+#include "libindet/verify/limits_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "libindet/base/constants.h"
+#include "libindet/base/rounding_bounds.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/exact/certificate.h"
+#include "libindet/exact/optimum.h"
+#include "libindet/limit/tilt.h"
+#include "libindet/verify/comparisons.h"
+#include "libindet/verify/rebuilt_problem.h"
+
+namespace indet {
+namespace {
+
+/// Nothing acts on it but a change of loads.
+Packing under_alone(Packing packing, const Loads& change) {
+  packing.named_force_unit = packing.force_unit();
+  packing.gravity = change.gravity;
+  for (std::size_t i = 0; i < packing.disks.size(); ++i)
+    packing.disks[i].load = change.disks.empty() ? Vector3(0, 0, 0) : change.disks[i];
+  for (std::size_t w = 0; w < packing.walls.size(); ++w) {
+    Wall& wall = packing.walls[w];
+    for (const int k : {0, 1}) {
+      double& load = k == 0 ? wall.load_n : wall.load_t;
+      if (!std::isnan(load)) load = change.walls.empty() ? 0 : change.walls[w][k];
+    }
+  }
+  for (std::size_t k = 0; k < change.stress.size(); ++k) {
+    double& stress = *packing.stress.find(Stress::kNames[k]);
+    if (!std::isnan(stress)) stress = change.stress[k];
+  }
+  return packing;
+}
+
+/// One end of one limit.
+class EndCheck {
+ public:
+  EndCheck(const Packing& packing, const Limit& limit, bool is_largest, Comparisons& compare)
+      : packing_(packing),
+        limit_(limit),
+        end_(is_largest ? limit.largest : limit.smallest),
+        sign_(is_largest ? 1 : -1),
+        name_(is_largest ? "largest" : "smallest"),
+        compare_(compare) {}
+
+  void check(bool exact) {
+    switch (end_.outcome) {
+      case LimitOutcome::kReached:
+        check_state();
+        check_mechanism();
+        if (exact) check_exactly();
+        return;
+      case LimitOutcome::kNever:
+        check_ray();
+        return;
+      case LimitOutcome::kNoState:
+        check_fall();
+        return;
+      case LimitOutcome::kUndecided:
+        compare_.call_unsolved(fmt::format("{} ({})", name_, limit_.load));
+        return;
+    }
+  }
+
+ private:
+  /// Forces of the contacts that are left, in units of the problem.
+  Eigen::VectorXd forces_of(double unit) const {
+    const std::set<int> left_out = left_out_disks();
+    std::vector<double> forces;
+    for (int i = 0; i < packing_.contact_count(); ++i) {
+      const Contact& contact = packing_[ContactId(i)];
+      const bool is_out = left_out.contains(contact.a.value()) ||
+                          (!contact.b.is_wall() && left_out.contains(contact.b.disk_id().value()));
+      for (const int k : {0, 1}) {
+        const double force = end_.forces.value()[2 * i + k];
+        if (is_out)
+          compare_.require(force == 0, "{}: contact {} of a disk that is left out has a force", name_, i);
+        else
+          forces.push_back(force / unit);
+      }
+    }
+    return Eigen::Map<const Eigen::VectorXd>(forces.data(), static_cast<Eigen::Index>(forces.size()));
+  }
+  std::set<int> left_out_disks() const {
+    std::set<int> disks;
+    for (const DiskId disk : limit_.left_out) disks.insert(disk.value());
+    return disks;
+  }
+
+  void check_state() {
+    compare_.require(end_.lower <= end_.value && end_.value <= end_.upper,
+                     "{}: {} is not between its bounds {} and {}", name_, end_.value, end_.lower, end_.upper);
+    if (!compare_.require(end_.forces.value().size() == 2 * packing_.contact_count(), "{}: no forces", name_))
+      return;
+    const Packing there = at_end(packing_, limit_, end_);
+    const RebuiltProblem problem(there);
+    const Eigen::VectorXd forces = forces_of(problem.force_unit());
+    const double largest = std::max(problem.internal_unit(), forces.lpNorm<Eigen::Infinity>());
+    const double worst = compare_.add_state(problem, forces);
+    compare_.require(worst <= tolerance::kResistedMotion * largest,
+                     "{}: the state there misses balance or friction by {} mg", name_, worst);
+    const auto count = problem.count_sliding(forces);
+    // What is 0 exactly is 0 within the tolerance, too.
+    compare_.require(end_.sliding <= count.sliding && end_.non_transmitting <= count.non_transmitting,
+                     "{}: {} sliding and {} non-transmitting contacts, but there are {} and {}", name_,
+                     end_.sliding, end_.non_transmitting, count.sliding, count.non_transmitting);
+  }
+
+  /// Power of the load along the motion of this end, as Σ of terms.
+  RebuiltProblem::Sum power(const Packing& packing) const {
+    const RebuiltProblem problem(packing);
+    RebuiltProblem::Sum sum = problem.load_product(rows(problem));
+    sum.value *= -problem.force_unit();
+    sum.size *= problem.force_unit();
+    return sum;
+  }
+  Eigen::VectorXd rows(const RebuiltProblem& problem) const {
+    const Eigen::VectorXd motion =
+        problem.flat_motion(end_.motion.disks, end_.motion.walls, end_.motion.cell);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.scene_rows());
+    y.head(motion.size()) = motion;
+    if (end_.motion.bounds.size() > 0) y.tail(end_.motion.bounds.size()) = end_.motion.bounds;
+    return y;
+  }
+
+  bool check_no_resistance(const Packing& packing) {
+    const auto bounds = static_cast<Eigen::Index>(force_bounds(packing).size());
+    if (!compare_.require(
+            end_.motion.disks.rows() == packing.disk_count() && end_.motion.bounds.size() == bounds,
+            "{}: no mechanism", name_))
+      return false;
+    for (int i = 0; i < packing.disk_count(); ++i)
+      compare_.require(!packing[DiskId(i)].fixed || end_.motion.disks.row(i).isZero(0),
+                       "{}: disk {} is fixed or left out, but moves", name_, packing[DiskId(i)].id);
+    const RebuiltProblem problem(packing);
+    const Eigen::VectorXd motion =
+        problem.flat_motion(end_.motion.disks, end_.motion.walls, end_.motion.cell);
+    const double resisted = problem.smallest_power(motion, end_.motion.bounds);
+    return compare_.require(resisted >= -tolerance::kResistedMotion,
+                            "{}: some contact resists the mechanism ({})", name_, resisted);
+  }
+
+  void check_mechanism() {
+    const Packing rest = without(packing_, limit_.left_out);
+    if (!check_no_resistance(rest)) return;
+    if (limit_.kind == LimitKind::kLoad) {
+      const RebuiltProblem::Sum own = power(rest);
+      const RebuiltProblem::Sum change = change_power(rest, limit_.change);
+      if (!compare_.require(sign_ * change.value > 0, "{}: more of the load does no work along the mechanism",
+                            name_))
+        return;
+      const double error = tolerance::kResistedMotion * (own.size + std::abs(end_.value) * change.size) /
+                           std::abs(change.value);
+      compare_.require(std::abs(-own.value / change.value - end_.value) <= error,
+                       "{}: {} is stored, but by its mechanism it is {}", name_, end_.value,
+                       -own.value / change.value);
+      return;
+    }
+    // Along the mechanism gravity at angle θ has the power p cos θ + q sin θ + r.
+    Loads across;
+    across.gravity = {-rest.gravity.y(), rest.gravity.x()};
+    Loads along;
+    along.gravity = rest.gravity;
+    const RebuiltProblem::Sum p = change_power(rest, along);
+    const RebuiltProblem::Sum q = change_power(rest, across);
+    const RebuiltProblem::Sum all = power(rest);
+    const double c = std::cos(end_.value);
+    const double s = std::sin(end_.value);
+    const double there = all.value - p.value + p.value * c + q.value * s;
+    const double slope = q.value * c - p.value * s;
+    compare_.require(sign_ * slope > 0, "{}: tilted further, gravity does no work along the mechanism",
+                     name_);
+    compare_.require(std::abs(there) <= tolerance::kResistedMotion * (all.size + p.size + q.size),
+                     "{}: at {} rad the load does work along the mechanism ({})", name_, end_.value, there);
+  }
+
+  RebuiltProblem::Sum change_power(const Packing& packing, const Loads& change) const {
+    Packing alone = under_alone(packing, change);
+    for (Contact& contact : alone.contacts)
+      contact.R_lo = contact.T_lo = -kInfinity, contact.R_hi = contact.T_hi = kInfinity;
+    const RebuiltProblem problem(alone);
+    RebuiltProblem::Sum sum;
+    const Eigen::VectorXd motion =
+        problem.flat_motion(end_.motion.disks, end_.motion.walls, end_.motion.cell);
+    for (Eigen::Index i = 0; i < motion.size(); ++i)
+      sum.add(problem.wrench()[i] * motion[i] * problem.force_unit());
+    return sum;
+  }
+
+  /// The ray balances the change of the load alone.
+  void check_ray() {
+    compare_.require(end_.value == sign_ * kInfinity, "{}: never, yet the value is {}", name_, end_.value);
+    if (limit_.kind == LimitKind::kTilt) {
+      compare_.leave_unchecked(
+          fmt::format("{} of {}: that it stands whichever way gravity points", name_, limit_.load));
+      return;
+    }
+    if (!compare_.require(end_.forces.value().size() == 2 * packing_.contact_count(), "{}: no ray", name_))
+      return;
+    const Packing alone = under_alone(without(packing_, limit_.left_out), limit_.change);
+    const RebuiltProblem problem(alone);
+    const Eigen::VectorXd ray = forces_of(1);
+    // The ray is stored with largest entry 1: its multiple balances the change.
+    const Eigen::VectorXd wrench = sign_ * problem.wrench();
+    const Eigen::VectorXd balanced = problem.matrix() * ray;
+    const double factor = wrench.squaredNorm() > 0 ? -balanced.dot(wrench) / wrench.squaredNorm() : 0;
+    const double miss = (balanced + factor * wrench).lpNorm<Eigen::Infinity>();
+    compare_.require(factor > 0 && miss <= tolerance::kResistedMotion,
+                     "{}: the ray does not balance the load (misses by {})", name_, miss);
+    const double violation = problem.ray_violation(ray);
+    compare_.require(violation <= tolerance::kResistedMotion, "{}: the ray breaks a contact condition by {}",
+                     name_, violation);
+  }
+
+  /// No multiple of the load has a state: the motion is not resisted, and the change has no power.
+  void check_fall() {
+    const Packing rest = without(packing_, limit_.left_out);
+    if (!check_no_resistance(rest)) return;
+    const RebuiltProblem::Sum own = power(rest);
+    compare_.require(own.value > 0, "{}: the load does no work along the motion ({})", name_, own.value);
+    if (limit_.kind == LimitKind::kTilt) {
+      compare_.leave_unchecked(fmt::format("that no other angle has a state ({})", limit_.load));
+      return;
+    }
+    const RebuiltProblem::Sum change = change_power(rest, limit_.change);
+    compare_.require(std::abs(change.value) <= tolerance::kResistedMotion * change.size,
+                     "{}: the change of the load has the power {} along the motion", name_, change.value);
+  }
+
+  void check_exactly() {
+    // The load there is rounded in each of its numbers.
+    const double step =
+        16 * kRoundoff * std::max(std::abs(end_.value), limit_.kind == LimitKind::kTilt ? 1.0 : 0.0);
+    LimitEnd inside = end_;
+    inside.value = (sign_ > 0 ? end_.lower : end_.upper) - sign_ * step;
+    LimitEnd outside = end_;
+    outside.value = (sign_ > 0 ? end_.upper : end_.lower) + sign_ * step;
+    compare_.require(stands(at_end(packing_, limit_, inside)), "{}: exact arithmetic finds no state at {}",
+                     name_, inside.value);
+    const Packing beyond = at_end(packing_, limit_, outside);
+    const exact::ContactProblem problem(beyond);
+    compare_.require(
+        exact::proves_emptiness(problem, exact::on_rows(beyond, problem, end_.motion), tolerance::kExactZero),
+        "{}: exact arithmetic does not prove that it falls at {}", name_, outside.value);
+  }
+
+  bool stands(const Packing& packing) const {
+    const exact::ContactProblem problem(packing);
+    const Eigen::VectorXd forces = forces_of(1);
+    const std::vector<double> strengths =
+        exact::edge_strengths(packing, {forces.data(), static_cast<std::size_t>(forces.size())});
+    const std::shared_ptr<const exact::ContactBasis> start =
+        exact::ContactBasis::create(problem, problem.choose_basis(strengths));
+    constexpr int kMostPivots = 100;
+    return start && exact::find_solution(problem, start, kMostPivots).verdict == exact::Verdict::kOptimal;
+  }
+
+  const Packing& packing_;
+  const Limit& limit_;
+  const LimitEnd& end_;
+  int sign_;
+  std::string name_;
+  Comparisons& compare_;
+};
+
+}  // namespace
+
+Verification verify_limits(const Packing& packing, const std::vector<Limit>& limits, bool exact) {
+  Comparisons compare("/limits");
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    const Limit& limit = limits[k];
+    compare.require((limit.smallest.outcome == LimitOutcome::kNoState) ==
+                        (limit.largest.outcome == LimitOutcome::kNoState),
+                    "{}: one end says that there is no state, the other one does not", limit.load);
+    compare.require(!(limit.smallest.lower > limit.largest.upper), "{}: the ends are in the wrong order",
+                    limit.load);
+    for (const bool is_largest : {false, true}) EndCheck(packing, limit, is_largest, compare).check(exact);
+  }
+  if (!exact)
+    compare.leave_unchecked(
+        "dim and one_mechanism of limits, and the last digits of bounds (--exact proves these)");
+  else
+    compare.leave_unchecked("dim and one_mechanism of limits");
+  return compare.result();
+}
+
+}  // namespace indet
