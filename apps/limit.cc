@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/analysis_arguments.h"
 #include "apps/command.h"
 #include "apps/limit_report.h"
 #include "apps/load_arguments.h"
@@ -33,11 +34,34 @@ struct LimitCommand {
   bool tilt = false;
   std::optional<double> ignore_below;  ///< degrees
   std::vector<std::string> loads;
+  bool friction = false;
+  std::string friction_of = "all";
 };
 
+/// The contacts of --friction-of.
+std::vector<bool> scaled_contacts(const LimitCommand& options, const Packing& packing) {
+  std::vector<bool> scaled(packing.contacts.size(), options.friction_of == "all");
+  if (options.friction_of == "walls" || options.friction_of == "disks") {
+    for (std::size_t i = 0; i < scaled.size(); ++i)
+      scaled[i] = packing.contacts[i].b.is_wall() == (options.friction_of == "walls");
+  } else if (options.friction_of != "all") {
+    for (const int i : parse_contact_list("--friction-of", options.friction_of, options.friction_of,
+                                          packing.contact_count()))
+      scaled[static_cast<std::size_t>(i)] = true;
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < scaled.size(); ++i) any = any || (scaled[i] && packing.contacts[i].mu > 0);
+  if (!any)
+    throw InputError(fmt::format("{}: --friction varies coefficients of friction, and all of {} are 0",
+                                 options.packing, options.friction_of));
+  return scaled;
+}
+
 int run(const LimitCommand& options, const Context& context) {
-  if (!options.tilt && options.loads.empty())
-    throw UsageError("limit needs to know what to vary: --tilt, or --load");
+  if (!options.tilt && options.loads.empty() && !options.friction)
+    throw UsageError("limit needs to know what to vary: --tilt, --load or --friction");
+  if (options.friction_of != "all" && !options.friction)
+    throw UsageError("--friction-of has no effect without --friction");
   if (options.ignore_below && !options.tilt)
     throw UsageError("--ignore-below has no effect without --tilt, whose angles it is about");
   const Packing packing = read_packing(open_packing(options.packing));
@@ -55,7 +79,8 @@ int run(const LimitCommand& options, const Context& context) {
   provenance.libraries["GLPK"] = glpk_version();
   std::vector<Limit> limits;
   const auto progress = context.progress();
-  const auto total = static_cast<std::int64_t>(changes.size() + (options.tilt ? 1 : 0));
+  const auto total =
+      static_cast<std::int64_t>(changes.size() + (options.tilt ? 1 : 0) + (options.friction ? 1 : 0));
   const auto add = [&](auto find) {
     if (progress && !progress({"limits", static_cast<std::int64_t>(limits.size()), total, ""}))
       throw Interrupted();
@@ -68,6 +93,11 @@ int run(const LimitCommand& options, const Context& context) {
     add([&] { return find_tilt(packing, options.ignore_below.value_or(0) * std::numbers::pi / 180); });
   for (std::size_t k = 0; k < changes.size(); ++k)
     add([&] { return find_load(packing, options.loads[k], changes[k]); });
+  if (options.friction) {
+    const std::string name =
+        options.friction_of == "all" ? "friction" : fmt::format("friction of {}", options.friction_of);
+    add([&] { return find_friction(packing, name, scaled_contacts(options, packing)); });
+  }
   write_limits(output, packing, limits, provenance);
 
   if (context.json) {
@@ -89,8 +119,9 @@ int run(const LimitCommand& options, const Context& context) {
 }  // namespace
 
 Command add_limit(CLI::App& root) {
-  CLI::App* command = root.add_subcommand(
-      "limit", "Find how far a packing can be tilted, or loaded, before no contact forces balance it");
+  CLI::App* command = root.add_subcommand("limit",
+                                          "Find how far a packing can be tilted or loaded, or with how "
+                                          "little friction, before no contact forces balance it");
   const auto options = std::make_shared<LimitCommand>();
   command->add_option("packing", options->packing, "HDF5 file of a packing, from simulate or import")
       ->required()
@@ -115,6 +146,16 @@ Command add_limit(CLI::App& root) {
                    "scene. May be given several times, for a limit each")
       ->type_name("LOAD")
       ->allow_extra_args(false);
+  command->add_flag(
+      "--friction", options->friction,
+      "With how little friction it still stands: the least factor of all coefficients of friction");
+  command
+      ->add_option(
+          "--friction-of", options->friction_of,
+          "--friction: of which contacts the coefficients are multiplied: all, walls (those with walls), "
+          "disks (those between disks), or a list like 3,7,12-20")
+      ->type_name("all|walls|disks|LIST")
+      ->capture_default_str();
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

@@ -81,8 +81,33 @@ void print_end(const Packing& packing, const Limit& limit, const LimitEnd& end, 
         describe_expected_dimension(packing), end.dim < 0 ? "" : fmt::format("; dim F = {}", end.dim));
 }
 
+void print_friction(const Packing& packing, const Limit& limit) {
+  say("{}: the factor by which {} of its contacts may have less friction\n", limit.load,
+      limit.scaled.size() ==
+              static_cast<std::size_t>(std::count(limit.scaled.begin(), limit.scaled.end(), true))
+          ? "all"
+          : "some");
+  const LimitEnd& end = limit.smallest;
+  if (end.outcome == LimitOutcome::kNoState) {
+    say("  no friction suffices (proven up to {:.3g} times of what there is)\n", end.lower);
+  } else if (end.outcome == LimitOutcome::kReached && end.value == 0 && limit.is_attained) {
+    say("  no friction is needed\n");
+    return;
+  } else if (end.outcome == LimitOutcome::kReached && end.value == 0) {
+    say("  any friction suffices, but there must be some: with less of it forces grow without limit\n");
+  } else {
+    if (limit.is_decided() && !limit.stands()) say("  it cannot stand as it is\n");
+    print_end(packing, limit, end, false);
+    if (end.outcome == LimitOutcome::kReached && !limit.is_attained)
+      say("            with this factor itself it does not stand: forces grow without limit towards it\n");
+    return;
+  }
+  if (end.motion.disks.rows() > 0) say("            {}\n", disks_text(packing, moving_disks(end.motion)));
+}
+
 void print_limit(const Packing& whole, const Limit& limit) {
   const Packing packing = without(whole, limit.left_out);
+  if (limit.kind == LimitKind::kFriction) return print_friction(packing, limit);
   if (limit.kind == LimitKind::kTilt)
     say("tilt: gravity turned counter-clockwise\n");
   else
@@ -158,6 +183,7 @@ nlohmann::json limits_to_json(const Packing& packing, const std::vector<Limit>& 
         {"smallest_bounds", {json_number(limit.smallest.lower), json_number(limit.smallest.upper)}},
         {"largest_bounds", {json_number(limit.largest.lower), json_number(limit.largest.upper)}},
         {"first_of_several", limit.is_first_of_several},
+        {"attained", limit.is_attained},
         {"status", status_of(limit)},
         {"at_smallest", end_to_json(packing, limit, limit.smallest)},
         {"at_largest", end_to_json(packing, limit, limit.largest)}};

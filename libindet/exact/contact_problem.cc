@@ -315,6 +315,28 @@ ContactProblem::ContactProblem(const Packing& packing, const Loads* change) {
   find_independent_rows();
 }
 
+ContactProblem ContactProblem::relaxed(const Packing& packing) {
+  ContactProblem problem(packing);
+  std::vector<mpq_class> sum(static_cast<std::size_t>(problem.rows()));
+  for (int e = 0; e < 2 * problem.contacts(); ++e) {
+    if (!problem.has_edge(e)) continue;
+    const IntegerColumn& column = problem.edge(e);
+    for (std::size_t k = 0; k < column.row.size(); ++k)
+      sum[static_cast<std::size_t>(column.row[k])] += scaled(mpq_class(column.value[k]), -column.shift);
+  }
+  for (const int sign : {1, -1}) {
+    Entries entries;
+    for (int row = 0; row < problem.rows(); ++row) {
+      const mpq_class& value = sum[static_cast<std::size_t>(row)];
+      if (value != 0) entries.emplace_back(row, sign * value);
+    }
+    problem.slacks_.push_back(integer_column(std::move(entries)));
+    problem.has_edge_.push_back(true);
+  }
+  problem.find_independent_rows();
+  return problem;
+}
+
 ContactProblem ContactProblem::restricted_to(const std::vector<bool>& open) const {
   ContactProblem part = *this;
   for (std::size_t e = 0; e < has_edge_.size(); ++e) part.has_edge_[e] = has_edge_[e] && open[e];

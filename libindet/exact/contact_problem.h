@@ -30,13 +30,16 @@ namespace indet::exact {
 /// /extremal/active, each of which is "this edge has strength 0". Edges 2M, 2M + 1, … are the slacks s.
 ///
 /// With a change w_1 of the load, which is w + λ w_1 then, the last two edges are the parts of λ = λ₊ − λ₋,
-/// both ≥ 0, with the columns w_1 and −w_1: no basis holds both.
+/// both ≥ 0, with the columns w_1 and −w_1: no basis holds both. Relaxed, λ is what every strength may lie
+/// below 0 instead: the largest λ with x ≥ λ tells by its sign whether there are states.
 class ContactProblem {
  public:
   /// Precondition: find_defect(packing) is empty.
   explicit ContactProblem(const Packing& packing) : ContactProblem(packing, nullptr) {}
   /// Precondition: defect_of(change, packing) is empty, and the change is not zero.
   ContactProblem(const Packing& packing, const Loads& change) : ContactProblem(packing, &change) {}
+  /// The same equations with strengths x + λ, x ≥ 0, of edges of contacts (not of slacks).
+  static ContactProblem relaxed(const Packing& packing);
 
   /// The same problem with only those edges, of the ones it has, that are set in `open` (one an edge); the
   /// others are held at 0. Rows, edges and contacts keep their numbers; the rank may fall.
@@ -45,7 +48,7 @@ class ContactProblem {
   int rows() const { return static_cast<int>(load_.size()); }
   int contacts() const { return static_cast<int>(contacts_.size()); }
   int edges() const { return 2 * contacts() + static_cast<int>(slacks_.size()); }
-  /// λ₊ and λ₋. Precondition: the problem has a change of the load.
+  /// λ₊ and λ₋. Precondition: the problem has a change of the load, or is relaxed.
   int rise() const { return edges() - 2; }
   int fall() const { return edges() - 1; }
   bool is_slack(int edge) const { return edge >= 2 * contacts(); }

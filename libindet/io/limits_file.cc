@@ -121,6 +121,13 @@ void write_limit(Hdf5File& file, const std::string& group, const Packing& packin
         file, group + "/bound_multipliers", limit, {bounds},
         {"1", "mechanism: multipliers of the bounds of forces"},
         [](const LimitEnd& end) -> auto& { return end.motion.bounds; });
+  if (limit.kind == LimitKind::kFriction) {
+    file.set_attribute(group, "attained", limit.is_attained ? 1 : 0);
+    std::vector<std::uint8_t> scaled;
+    for (const bool is_scaled : limit.scaled) scaled.push_back(is_scaled ? 1 : 0);
+    file.write(group + "/scaled", std::span<const std::uint8_t>(scaled), {scaled.size()},
+               {"1", "1: the coefficient of friction of this contact is multiplied by the value"});
+  }
   if (limit.kind == LimitKind::kLoad) write_change(file, group + "/change", packing, limit.change);
 }
 
@@ -164,6 +171,11 @@ class LimitReader {
       if (packing_.stress.is_imposed()) read_table("/cell_motion", {2, 2}, k, end.motion.cell);
       const std::size_t bounds = force_bounds(packing_).size();
       if (bounds > 0) read_table("/bound_multipliers", {bounds}, k, end.motion.bounds);
+    }
+    if (limit.kind == LimitKind::kFriction) {
+      limit.is_attained = file_.integer_attribute(group_, "attained") != 0;
+      for (const std::uint8_t is_scaled : file_.read_bytes(group_ + "/scaled", {packing_.contacts.size()}))
+        limit.scaled.push_back(is_scaled != 0);
     }
     if (limit.kind == LimitKind::kLoad) read_change(limit.change);
     return limit;

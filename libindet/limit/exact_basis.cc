@@ -16,6 +16,21 @@ std::vector<double> basis_preferences(const exact::ContactProblem& exact, const 
   return preferences;
 }
 
+std::shared_ptr<const exact::ContactBasis> basis_of(const exact::ContactProblem& exact,
+                                                    const EquilibriumProblem& problem,
+                                                    const LimitProgram::Answer& answer) {
+  std::vector<double> wanted = basis_preferences(exact, problem, answer.basic);
+  for (const bool falls : {answer.lambda < 0, !(answer.lambda < 0)}) {
+    const int lambda = falls ? exact.fall() : exact.rise();
+    wanted[static_cast<std::size_t>(exact.rise())] = wanted[static_cast<std::size_t>(exact.fall())] = 0;
+    if (answer.lambda_is_basic) wanted[static_cast<std::size_t>(lambda)] = 2;
+    std::shared_ptr<const exact::ContactBasis> basis =
+        exact::ContactBasis::create(exact, exact.choose_basis(wanted));
+    if (!basis || !answer.lambda_is_basic || basis->sign_of_strength(lambda) >= 0) return basis;
+  }
+  return nullptr;
+}
+
 SceneForces forces_of(const exact::ContactBasis& basis, int contacts) {
   Eigen::VectorXd forces(2 * contacts);
   for (int component = 0; component < forces.size(); ++component)

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "libindet/base/constants.h"
+#include "libindet/limit/friction_limit.h"
 #include "libindet/limit/mechanism.h"
 #include "libindet/limit/tilt.h"
 
@@ -44,7 +46,17 @@ LimitEnd on_all_contacts(const Packing& packing, const std::vector<DiskId>& left
 
 }  // namespace
 
-const char* to_string(LimitKind kind) { return kind == LimitKind::kTilt ? "tilt" : "load"; }
+const char* to_string(LimitKind kind) {
+  switch (kind) {
+    case LimitKind::kTilt:
+      return "tilt";
+    case LimitKind::kLoad:
+      return "load";
+    case LimitKind::kFriction:
+      return "friction";
+  }
+  return "?";
+}
 
 Packing without(Packing packing, const std::vector<DiskId>& disks) {
   if (disks.empty()) return packing;
@@ -86,7 +98,24 @@ Limit find_load(const Packing& packing, std::string name, Loads change, const Li
   return limit;
 }
 
+Limit find_friction(const Packing& packing, std::string name, std::vector<bool> scaled,
+                    const LimitOptions& options) {
+  FrictionLimit found = find_friction_limit(packing, scaled, options);
+  Limit limit;
+  limit.kind = LimitKind::kFriction;
+  limit.load = std::move(name);
+  limit.scaled = std::move(scaled);
+  limit.smallest = std::move(found.infimum);
+  limit.is_attained = found.is_attained;
+  limit.largest.outcome =
+      limit.smallest.outcome == LimitOutcome::kReached ? LimitOutcome::kNever : limit.smallest.outcome;
+  if (limit.largest.outcome == LimitOutcome::kNever)
+    limit.largest.value = limit.largest.lower = limit.largest.upper = kInfinity;
+  return limit;
+}
+
 Packing at_end(const Packing& packing, const Limit& limit, const LimitEnd& end) {
+  if (limit.kind == LimitKind::kFriction) return with_friction(packing, limit.scaled, end.value);
   Packing tilted = without(packing, limit.left_out);
   if (limit.kind == LimitKind::kLoad) return under(limit.change, end.value, std::move(tilted));
   tilted.gravity = turned_gravity(packing, end.value);

@@ -11,25 +11,31 @@ namespace indet {
 
 /// What is varied until no contact forces balance the loads any more.
 enum class LimitKind : std::uint8_t {
-  kTilt,  ///< the direction of gravity, by an angle in rad, counter-clockwise positive (tilt.h)
-  kLoad   ///< what acts, by a multiple λ of `change` (load_limits.h)
+  kTilt,     ///< the direction of gravity, by an angle in rad, counter-clockwise positive (tilt.h)
+  kLoad,     ///< what acts, by a multiple λ of `change` (load_limits.h)
+  kFriction  ///< the coefficients of friction of `scaled` contacts, by a factor (friction_limit.h)
 };
-inline constexpr LimitKind kLimitKinds[] = {LimitKind::kTilt, LimitKind::kLoad};
+inline constexpr LimitKind kLimitKinds[] = {LimitKind::kTilt, LimitKind::kLoad, LimitKind::kFriction};
 const char* to_string(LimitKind kind);
 
 /// Both ends of what a packing can take, as files hold it.
 struct Limit {
   LimitKind kind = LimitKind::kTilt;
-  std::string load;  ///< how the user called it
-  Loads change;      ///< of kLoad; else 0
+  std::string load;          ///< how the user called it
+  Loads change;              ///< of kLoad; else 0
+  std::vector<bool> scaled;  ///< of kFriction: which contacts; else empty
   LimitEnd smallest, largest;
+  /// Of kFriction: it stands with the smallest factor itself (FrictionLimit::is_attained).
+  bool is_attained = true;
   /// Of kTilt: something takes part that does not turn with gravity, so that it may stand again further on.
   bool is_first_of_several = false;
   /// Disks that were taken out, in this order: forces of their contacts are 0, and they do not move.
   std::vector<DiskId> left_out;
 
+  /// The angle, multiple or factor of the packing as it is.
+  double present() const { return kind == LimitKind::kFriction ? 1 : 0; }
   /// It stands as it is.
-  bool stands() const { return smallest.upper <= 0 && largest.lower >= 0; }
+  bool stands() const { return smallest.upper <= present() && largest.lower >= present(); }
   bool is_decided() const {
     return smallest.outcome != LimitOutcome::kUndecided && largest.outcome != LimitOutcome::kUndecided;
   }
@@ -45,7 +51,12 @@ Packing without(Packing packing, const std::vector<DiskId>& disks);
 Limit find_tilt(const Packing& packing, double ignore_below = 0, const LimitOptions& options = {});
 Limit find_load(const Packing& packing, std::string name, Loads change, const LimitOptions& options = {});
 
-/// The packing, without what was left out, under the load of one of its ends. Precondition: that is reached.
+/// `scaled`: as of find_friction_limit.
+Limit find_friction(const Packing& packing, std::string name, std::vector<bool> scaled,
+                    const LimitOptions& options = {});
+
+/// The packing, without what was left out, under the load, or with the friction, of one of its ends.
+/// Precondition: that is reached.
 Packing at_end(const Packing& packing, const Limit& limit, const LimitEnd& end);
 
 }  // namespace indet

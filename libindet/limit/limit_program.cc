@@ -1,5 +1,7 @@
 #include "libindet/limit/limit_program.h"
 
+#include <utility>
+
 namespace indet {
 namespace {
 
@@ -23,10 +25,17 @@ LpStatus interpret(GlpkProblem::Result result) {
 }  // namespace
 
 LimitProgram::LimitProgram(const EquilibriumProblem& problem, const LpOptions& options)
-    : problem_(problem), options_(options) {
-  if (!has_change()) return;
-  const double largest = problem.right_hand_sides.col(1).lpNorm<Eigen::Infinity>();
-  if (largest > 0) scale_ = 1 / largest;
+    : LimitProgram(problem,
+                   problem.right_hand_sides.cols() > 1 ? Eigen::VectorXd(problem.right_hand_sides.col(1))
+                                                       : Eigen::VectorXd(),
+                   options) {}
+
+LimitProgram::LimitProgram(const EquilibriumProblem& problem, Eigen::VectorXd change,
+                           const LpOptions& options)
+    : problem_(problem), options_(options), change_(std::move(change)) {
+  const double largest = has_change() ? change_.lpNorm<Eigen::Infinity>() : 0;
+  if (largest > 0) scale_ = largest;
+  if (has_change()) change_ /= scale_;
 }
 
 void LimitProgram::build() {
@@ -42,8 +51,7 @@ void LimitProgram::build() {
   if (has_change()) program_->bound_column(lambda, GlpkProblem::Bound::kFree, 0);
   for (int i = 0; i < problem_.equations(); ++i) {
     program_->bound_row(i, GlpkProblem::Bound::kFixed, problem_.right_hand_sides(i, 0));
-    const double change = has_change() ? problem_.right_hand_sides(i, 1) * scale_ : 0;
-    if (change != 0) entries.push_back({i, lambda, -change});
+    if (has_change() && change_[i] != 0) entries.push_back({i, lambda, -change_[i]});
   }
   program_->load(entries);
   has_basis_ = false;
@@ -83,7 +91,7 @@ LimitProgram::Answer LimitProgram::find(int sign) {
     answer.basic[static_cast<std::size_t>(k)] = program_->is_column_basic(k);
   if (!has_change()) return answer;
   answer.lambda_is_basic = program_->is_column_basic(problem_.unknowns());
-  answer.lambda_is_negative = program_->column_value(problem_.unknowns()) < 0;
+  answer.lambda = program_->column_value(problem_.unknowns()) / scale_;
   return answer;
 }
 

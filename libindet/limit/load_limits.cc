@@ -75,24 +75,10 @@ struct LoadLimitFinder::Impl {
     return true;
   }
 
-  /// The basis where the linear program ended, with λ as the part that has its sign.
-  SharedBasis start(const LimitProgram::Answer& answer) const {
-    std::vector<double> wanted = basis_preferences(exact_, problem_, answer.basic);
-    for (const bool falls : {answer.lambda_is_negative, !answer.lambda_is_negative}) {
-      const int lambda = falls ? exact_.fall() : exact_.rise();
-      wanted[static_cast<std::size_t>(exact_.rise())] = wanted[static_cast<std::size_t>(exact_.fall())] = 0;
-      if (answer.lambda_is_basic) wanted[static_cast<std::size_t>(lambda)] = 2;
-      SharedBasis basis = ContactBasis::create(exact_, exact_.choose_basis(wanted));
-      if (!basis || !answer.lambda_is_basic || basis->sign_of_strength(lambda) >= 0) return basis;
-    }
-    return nullptr;
-  }
-
   void prove(const LimitProgram::Answer& answer, int sign, LimitEnd& end) const {
-    const SharedBasis basis = start(answer);
+    const SharedBasis basis = basis_of(exact_, problem_, answer);
     if (!basis) return;
-    const Goal goal =
-        Goal::of_strengths({{exact_.rise(), 1.0 * sign}, {exact_.fall(), -1.0 * sign}});
+    const Goal goal = Goal::of_strengths({{exact_.rise(), 1.0 * sign}, {exact_.fall(), -1.0 * sign}});
     const Optimum found = exact::maximise(exact_, basis, goal, options_.most_pivots);
     end.pivots += found.pivots;
     switch (found.verdict) {

@@ -14,6 +14,7 @@
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
 #include "libindet/exact/optimum.h"
+#include "libindet/limit/friction_limit.h"
 #include "libindet/limit/tilt.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/rebuilt_problem.h"
@@ -150,6 +151,7 @@ class EndCheck {
   }
 
   void check_mechanism() {
+    if (limit_.kind == LimitKind::kFriction) return check_friction();
     const Packing rest = without(packing_, limit_.left_out);
     if (!check_no_resistance(rest)) return;
     if (limit_.kind == LimitKind::kLoad) {
@@ -183,6 +185,17 @@ class EndCheck {
                      "{}: at {} rad the load does work along the mechanism ({})", name_, end_.value, there);
   }
 
+  /// With the friction just below, the load does work along a motion that nothing resists.
+  void check_friction() {
+    if (end_.value == 0 && limit_.is_attained) return;  // no friction is needed
+    LimitEnd below = end_;
+    below.value = end_.lower;
+    const Packing there = at_end(packing_, limit_, below);
+    if (!check_no_resistance(there)) return;
+    const RebuiltProblem::Sum load = power(there);
+    compare_.require(load.value > 0, "{}: the load does no work along the motion ({})", name_, load.value);
+  }
+
   RebuiltProblem::Sum change_power(const Packing& packing, const Loads& change) const {
     Packing alone = under_alone(packing, change);
     for (Contact& contact : alone.contacts)
@@ -199,6 +212,7 @@ class EndCheck {
   /// The ray balances the change of the load alone.
   void check_ray() {
     compare_.require(end_.value == sign_ * kInfinity, "{}: never, yet the value is {}", name_, end_.value);
+    if (limit_.kind == LimitKind::kFriction) return;  // larger cones hold the smaller ones
     if (limit_.kind == LimitKind::kTilt) {
       compare_.leave_unchecked(
           fmt::format("{} of {}: that it stands whichever way gravity points", name_, limit_.load));
@@ -223,7 +237,11 @@ class EndCheck {
 
   /// No multiple of the load has a state: the motion is not resisted, and the change has no power.
   void check_fall() {
-    const Packing rest = without(packing_, limit_.left_out);
+    Packing rest = without(packing_, limit_.left_out);
+    if (limit_.kind == LimitKind::kFriction) {
+      if (sign_ > 0) return;  // of the smallest one
+      rest = with_friction(std::move(rest), limit_.scaled, end_.lower);
+    }
     if (!check_no_resistance(rest)) return;
     const RebuiltProblem::Sum own = power(rest);
     compare_.require(own.value > 0, "{}: the load does no work along the motion ({})", name_, own.value);
@@ -231,6 +249,7 @@ class EndCheck {
       compare_.leave_unchecked(fmt::format("that no other angle has a state ({})", limit_.load));
       return;
     }
+    if (limit_.kind == LimitKind::kFriction) return;
     const RebuiltProblem::Sum change = change_power(rest, limit_.change);
     compare_.require(std::abs(change.value) <= tolerance::kResistedMotion * change.size,
                      "{}: the change of the load has the power {} along the motion", name_, change.value);

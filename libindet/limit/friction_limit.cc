@@ -1,0 +1,182 @@
+#include "libindet/limit/friction_limit.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "libindet/base/constants.h"
+#include "libindet/base/tolerances.h"
+#include "libindet/limit/exact_basis.h"
+#include "libindet/limit/limit_program.h"
+#include "libindet/limit/mechanism.h"
+#include "libindet/limit/standing.h"
+
+namespace indet {
+namespace {
+
+using exact::ContactProblem;
+using exact::Goal;
+using exact::Optimum;
+using exact::Verdict;
+
+constexpr double kLargestFactor = 0x1p30;
+constexpr double kSmallestFactor = 0x1p-40;
+
+/// −A w, with w what a strength of 1 in the exact problem is here.
+Eigen::VectorXd relaxation(const EquilibriumProblem& problem) {
+  Eigen::VectorXd weights(problem.unknowns());
+  for (int k = 0; k < problem.unknowns(); ++k)
+    weights[k] = problem.edge(k).is_slack() ? 0 : 1 / problem.edge(k).R;
+  return -(problem.edge_matrix * weights);
+}
+
+class FrictionFinder {
+ public:
+  FrictionFinder(const Packing& packing, const std::vector<bool>& scaled, const LimitOptions& options)
+      : packing_(packing), scaled_(scaled), options_(options) {}
+
+  FrictionLimit find() {
+    const Standing without = stand(0);
+    if (without.stands()) {
+      describe_state(without);
+      end_.outcome = LimitOutcome::kReached;
+      end_.value = end_.lower = end_.upper = 0;
+      return finish();
+    }
+    double high = 1;
+    while (margin(high) < 0 && high < kLargestFactor) high *= high < 16 ? 2 : 16;
+    if (margin(high) < 0) {
+      describe_hopeless(high);
+      return finish();
+    }
+    double low = high;
+    while (margin(low) >= 0 && low > kSmallestFactor) low /= low > 1.0 / 16 ? 2 : 16;
+    if (margin(low) >= 0) {  // as far as one can see, any friction will do
+      const Standing standing = stand(low);
+      if (!standing.stands() || !without.falls()) return finish();
+      describe_state(standing);
+      end_.motion = without.motion;
+      end_.outcome = LimitOutcome::kReached;
+      end_.value = end_.lower = 0;
+      end_.upper = low;
+      result_.is_attained = false;
+      return finish();
+    }
+    const double zero = zero_between(low, high);
+    for (double share = tolerance::kFrictionFactor / 2; share < 1e-3; share *= 10) {
+      if (enclose(zero, share)) break;
+    }
+    if (end_.outcome == LimitOutcome::kReached) result_.is_attained = !grows();
+    return finish();
+  }
+
+ private:
+  Packing at(double factor) const { return with_friction(packing_, scaled_, factor); }
+  Standing stand(double factor) {
+    Standing standing = find_standing(at(factor), options_);
+    end_.pivots += standing.pivots;
+    return standing;
+  }
+
+  /// The largest t with x ≥ t, as GLPK tells; −1 where no forces balance the load, 1 where t has no limit.
+  double margin(double factor) const {
+    const Packing there = at(factor);
+    const EquilibriumProblem problem = pose_equilibrium(there);
+    const LimitProgram::Answer answer = LimitProgram(problem, relaxation(problem)).find(1);
+    if (answer.status == LpStatus::kUnbounded) return 1;
+    return answer.status == LpStatus::kOptimal ? answer.lambda : -1;
+  }
+
+  double zero_between(double low, double high) const {
+    std::uintmax_t most = 100;
+    const auto is_close = [](double a, double b) {
+      return std::abs(b - a) <= tolerance::kFrictionFactor / 4 * std::abs(b);
+    };
+    const auto [a, b] =
+        boost::math::tools::toms748_solve([this](double s) { return margin(s); }, low, high, is_close, most);
+    return (a + b) / 2;
+  }
+
+  /// Whether it falls this share below, and stands this share above.
+  bool enclose(double zero, double share) {
+    const double below = zero * (1 - share);
+    const double above = zero * (1 + share);
+    const Standing standing = stand(above);
+    if (!standing.stands() || !prove_fall(below)) return false;
+    describe_state(standing);
+    end_.outcome = LimitOutcome::kReached;
+    end_.value = zero;
+    end_.lower = below;
+    end_.upper = above;
+    return true;
+  }
+
+  /// The largest t is negative, and the motion that proves it is stored.
+  bool prove_fall(double factor) {
+    const Packing there = at(factor);
+    const EquilibriumProblem problem = pose_equilibrium(there);
+    const ContactProblem exact = ContactProblem::relaxed(there);
+    const auto basis = basis_of(exact, problem, LimitProgram(problem, relaxation(problem)).find(1));
+    if (!basis) return false;
+    const Goal goal = Goal::of_strengths({{exact.rise(), 1.0}, {exact.fall(), -1.0}});
+    const Optimum found = exact::maximise(exact, basis, goal, options_.most_pivots);
+    end_.pivots += found.pivots;
+    if (found.verdict != Verdict::kOptimal || found.value >= 0) return false;
+    end_.motion = exact::on_bodies(there, exact, found.basis->motion(*found.multipliers));
+    return true;
+  }
+
+  /// No factor up to a large one suffices: where the motion slides at no contact of those that are scaled,
+  /// none at all does.
+  void describe_hopeless(double factor) {
+    if (!prove_fall(factor)) return;
+    end_.outcome = LimitOutcome::kNoState;
+    end_.value = kInfinity;
+    end_.lower = factor;
+  }
+
+  /// Whether forces grow without limit as the factor falls to the infimum: a thousand times closer to it they
+  /// are much larger.
+  bool grows() {
+    constexpr double kShare = 1e-6;
+    const Standing far = stand(end_.value * (1 + kShare));
+    const Standing near = stand(end_.value * (1 + kShare / 1000));
+    if (!far.stands() || !near.stands()) return false;
+    return near.forces.value().lpNorm<Eigen::Infinity>() > 100 * far.forces.value().lpNorm<Eigen::Infinity>();
+  }
+
+  void describe_state(const Standing& standing) {
+    end_.forces = standing.forces;
+    end_.sliding = standing.sliding;
+    end_.non_transmitting = standing.non_transmitting;
+  }
+  FrictionLimit finish() {
+    result_.infimum = std::move(end_);
+    return std::move(result_);
+  }
+
+  const Packing& packing_;
+  const std::vector<bool>& scaled_;
+  LimitOptions options_;
+  LimitEnd end_;
+  FrictionLimit result_;
+};
+
+}  // namespace
+
+Packing with_friction(Packing packing, const std::vector<bool>& scaled, double factor) {
+  for (std::size_t i = 0; i < packing.contacts.size(); ++i) {
+    if (scaled[i]) packing.contacts[i].mu *= factor;
+  }
+  return packing;
+}
+
+FrictionLimit find_friction_limit(const Packing& packing, const std::vector<bool>& scaled,
+                                  const LimitOptions& options) {
+  return FrictionFinder(packing, scaled, options).find();
+}
+
+}  // namespace indet
