@@ -47,22 +47,15 @@ class FrictionFinder {
       return finish();
     }
     double high = 1;
-    while (margin(high) < 0 && high < kLargestFactor) high *= high < 16 ? 2 : 16;
-    if (margin(high) < 0) {
+    while (falls_at(high) && high < kLargestFactor) high *= high < 16 ? 2 : 16;
+    if (falls_at(high)) {
       describe_hopeless(high);
       return finish();
     }
     double low = high;
-    while (margin(low) >= 0 && low > kSmallestFactor) low /= low > 1.0 / 16 ? 2 : 16;
-    if (margin(low) >= 0) {  // as far as one can see, any friction will do
-      const Standing standing = stand(low);
-      if (!standing.stands() || !without.falls()) return finish();
-      describe_state(standing);
-      end_.motion = without.motion;
-      end_.outcome = LimitOutcome::kReached;
-      end_.value = end_.lower = 0;
-      end_.upper = low;
-      result_.is_attained = false;
+    while (!falls_at(low) && low > kSmallestFactor) low /= low > 1.0 / 16 ? 2 : 16;
+    if (!falls_at(low)) {
+      describe_any(low, without);
       return finish();
     }
     const double zero = zero_between(low, high);
@@ -79,6 +72,14 @@ class FrictionFinder {
     Standing standing = find_standing(at(factor), options_);
     end_.pivots += standing.pivots;
     return standing;
+  }
+
+  /// Far from 1 GLPK's tolerances say little: there exact arithmetic has the last word.
+  bool falls_at(double factor) {
+    constexpr double kFar = 64;
+    const bool falls = margin(factor) < 0;
+    if (!falls || (factor < kFar && factor > 1 / kFar)) return falls;
+    return !stand(factor).stands();
   }
 
   /// The largest t with x ≥ t, as GLPK tells; −1 where no forces balance the load, 1 where t has no limit.
@@ -124,18 +125,38 @@ class FrictionFinder {
     const Goal goal = Goal::of_strengths({{exact.rise(), 1.0}, {exact.fall(), -1.0}});
     const Optimum found = exact::maximise(exact, basis, goal, options_.most_pivots);
     end_.pivots += found.pivots;
-    if (found.verdict != Verdict::kOptimal || found.value >= 0) return false;
-    end_.motion = exact::on_bodies(there, exact, found.basis->motion(*found.multipliers));
-    return true;
+    switch (found.verdict) {
+      case Verdict::kOptimal:
+        if (found.value >= 0) return false;
+        end_.motion = exact::on_bodies(there, exact, found.basis->motion(*found.multipliers));
+        return true;
+      case Verdict::kInconsistent:  // whatever the signs of strengths are
+        end_.motion = exact::on_bodies(there, exact, *found.basis->contradiction());
+        is_inconsistent_ = true;
+        return true;
+      default:
+        return false;
+    }
   }
 
-  /// No factor up to a large one suffices: where the motion slides at no contact of those that are scaled,
-  /// none at all does.
+  /// As far as one can see any friction will do, but none will not.
+  void describe_any(double factor, const Standing& without) {
+    const Standing standing = stand(factor);
+    if (!standing.stands() || !without.falls()) return;
+    describe_state(standing);
+    end_.motion = without.motion;
+    end_.outcome = LimitOutcome::kReached;
+    end_.value = end_.lower = 0;
+    end_.upper = factor;
+    result_.is_attained = false;
+  }
+
+  /// No factor up to a large one suffices; where equations contradict each other, none at all does.
   void describe_hopeless(double factor) {
     if (!prove_fall(factor)) return;
     end_.outcome = LimitOutcome::kNoState;
     end_.value = kInfinity;
-    end_.lower = factor;
+    end_.lower = is_inconsistent_ ? kInfinity : factor;
   }
 
   /// Whether forces grow without limit as the factor falls to the infimum: a thousand times closer to it they
@@ -163,6 +184,7 @@ class FrictionFinder {
   LimitOptions options_;
   LimitEnd end_;
   FrictionLimit result_;
+  bool is_inconsistent_ = false;  ///< the equations contradict each other, whatever the forces
 };
 
 }  // namespace

@@ -17,8 +17,7 @@ namespace indet {
 struct FrictionLimit {
   /// `smallest`: the infimum with forces just above and a motion that proves that it falls just below.
   ///   kReached  at 0: no friction is needed
-  ///   kNoState  no friction suffices: the motion that proves it opens at no contact that would resist with
-  ///             more; it proves this up to the factor `lower`
+  ///   kNoState  no friction suffices, up to the factor `lower` at least, of which it is proven
   LimitEnd infimum;
   /// It stands with the infimum itself. Not so where forces grow without limit as s falls to it: a column
   /// between two walls needs some friction, however little.
