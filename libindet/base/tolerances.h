@@ -521,6 +521,9 @@ inline constexpr int kIdleIterations = 15;
 /// at which it is proven to fall are this far apart (rad), or somewhat more. Workable: 1e-14 … 1e-6.
 inline constexpr double kTilt = 1e-12;
 
+/// A limit whose proven bounds are further apart than this, relative to the larger of it and 1, is undecided.
+inline constexpr double kLimitWidth = 1e-8;
+
 /// Under a motion with largest entry 1, a contact whose surfaces part, or slide, by less than this rests.
 inline constexpr double kRestingRate = 1e-9;
 

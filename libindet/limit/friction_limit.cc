@@ -59,7 +59,7 @@ class FrictionFinder {
       return finish();
     }
     const double zero = zero_between(low, high);
-    for (double share = tolerance::kFrictionFactor / 2; share < 1e-3; share *= 10) {
+    for (double share = tolerance::kFrictionFactor / 2; share < tolerance::kLimitWidth / 2; share *= 10) {
       if (enclose(zero, share)) break;
     }
     if (end_.outcome == LimitOutcome::kReached) result_.is_attained = !grows();

@@ -129,7 +129,9 @@ struct LoadLimitFinder::Impl {
       return;
     }
     const ContactProblem at_limit = exact_.restricted_to(face);
-    exact::Work work(at_limit, 2e6);
+    exact::Work work(at_limit, options_.face_work);
+    constexpr int kLeastPivots = 20;  // else it would not come far
+    if (work.pivots() < kLeastPivots) return;
     const SharedBasis start = ContactBasis::create(at_limit, found.basis->edges());
     if (!start) return;
     const exact::Structure left = exact::find_structure(at_limit, start, work);

@@ -56,6 +56,8 @@ struct LoadLimits {
 struct LimitOptions {
   /// Pivots of exact arithmetic from where linear programs ended, before a limit is left undecided.
   int most_pivots = 200;
+  /// Work (exact::Work) for what is left of F at a limit that is degenerate.
+  double face_work = 2e6;
 };
 
 /// Finds one end or both, by linear programs whose bases are proven, or mended, in rational arithmetic.

@@ -221,6 +221,7 @@ class AnyChange(Tampered):
                           ["analyze", "g.h5", "--accuracy", "estimate", "--calibrate", "1"],
                           ["analyze", "g.h5", "--contacts", "sample:1"],
                           ["analyze", "b.h5"], ["analyze", "g.h5", "--smallest-distances"],
+                          ["limit", "b.h5", "--load", "wall=right,1,0", "--friction"],
                           ["sample", "g.h5", "--method", "uniform", "--states", "2", "--covariance", "--shape"],
                           ["sample", "q.h5", "--samples", "5"],
                           ["simulate", "--protocol", "cd1", "--disks", "2", "--every", "1"]):
@@ -325,6 +326,14 @@ class OfRanges(Tampered):
         self.make("analyze", "q.h5", "--accuracy", "estimate", "--calibrate", "2", "--seed", "4")
         self.assertIn(("ranges/delta_R_high", None), self.places)
         self.assertEqual(self.unnoticed("ranges") - GUARDED_BY_THE_DIGEST_ALONE, set())
+
+
+class OfLimits(Tampered):
+    def test_results_with_a_forged_digest(self):
+        self.make("limit", "q.h5", "--tilt", "--load", "disk=2,1,-0.5", "--friction")
+        # All that is stored but two properties of what is left at the limit, which need exact arithmetic.
+        names = {re.sub(r"\d", "K", place) for place in self.unnoticed("limits")}
+        self.assertEqual(names, places("limits/K/", "dim one_mechanism"))
 
 
 class OfSamples(Tampered):

@@ -1,0 +1,145 @@
+"""`indet limit`: tilts, loads and friction of small scenes with known answers, their files, messages and pictures.
+
+Argument: the indet executable.
+"""
+
+import json
+import math
+import pathlib
+import sys
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import program  # noqa: E402
+
+
+class Limits(program.ProgramTest):
+    def limits(self, *arguments, status=0):
+        return json.loads(self.run_indet("--json", "limit", *arguments, status=status).stdout)["limits"]
+
+    def test_a_groove_tilts_by_its_angle(self):
+        packing = self.packing(program.groove(0.4))
+        tilt, = self.limits(packing, "--tilt")
+        self.assertEqual((tilt["load"], tilt["unit"], tilt["status"]), ("tilt", "rad", "stands"))
+        self.assertAlmostEqual(tilt["largest"], 0.4, delta=1e-15)
+        self.assertAlmostEqual(tilt["smallest"], -0.4, delta=1e-15)
+        low, high = tilt["largest_bounds"]
+        self.assertLessEqual(low, tilt["largest"])
+        self.assertLess(high - low, 1e-15)
+        with h5py.File(self.folder / "p.limits.h5") as file:
+            group = file["limits/0"]
+            self.assertEqual(group.attrs["kind"], "tilt")
+            self.assertEqual(group["value"][1], tilt["largest"])
+            # Gravity of 1 along one normal: that contact bears all, the other one nothing.
+            np.testing.assert_allclose(np.sort(np.abs(group["forces"][1])), [0, 0, 0, 1], atol=1e-14)
+            self.assertEqual(np.abs(group["motion"][()]).max(), 1)
+        self.assertIn(" 0 contradictions", self.run_indet("verify", "--exact", "p.limits.h5").stdout)
+        self.assertIn("tilt: gravity", self.run_indet("inspect", "p.limits.h5").stdout)
+
+    def test_never(self):
+        tilt, = self.limits(self.packing(program.groove(1.4)), "--tilt")
+        self.assertEqual((tilt["largest"], tilt["smallest"]), ("inf", "-inf"))
+        self.assertIn("never", self.run_indet("limit", "p.h5", "--tilt").stdout)
+
+    def test_what_cannot_stand(self):
+        packing = self.packing(program.incline())
+        tilt, load, friction = self.limits(packing, "--tilt", "--load", "disk=0,0,1", "--friction", status=4)
+        self.assertEqual(tilt["status"], "does not stand")
+        # Gravity along the normal of the incline: the disk stands there, and nowhere else.
+        self.assertAlmostEqual(tilt["largest"], tilt["smallest"], delta=1e-14)
+        self.assertAlmostEqual(abs(tilt["largest"]), math.pi / 6, delta=1e-14)
+        # Held up by as much as it weighs.
+        self.assertEqual((load["smallest"], load["largest"], load["status"]), (1, 1, "does not stand"))
+        self.assertEqual(friction["status"], "no state")
+        self.assertEqual(friction["at_smallest"]["moving_disks"], [0])
+
+    def test_friction_of_a_pyramid(self):
+        packing = self.packing(program.pyramid(0.5))
+        all_of_it, = self.limits(packing, "--friction")
+        # Two contacts of the lower disks press on each other, too: some friction is needed, at most tan 15°.
+        self.assertLessEqual(all_of_it["smallest"] * 0.5, math.tan(math.pi / 12) + 1e-12)
+        self.assertEqual(all_of_it["largest"], "inf")
+        self.assertTrue(all_of_it["attained"])
+        walls, = self.limits(packing, "--friction", "--friction-of", "walls")
+        self.assertAlmostEqual(walls["smallest"] * 0.5, (2 - math.sqrt(3)) / 3, delta=1e-12)
+        listed, = self.limits(packing, "--friction", "--friction-of", "0,1")
+        self.assertEqual(listed["smallest"], walls["smallest"])
+
+    def test_loads_by_option_and_by_file(self):
+        packing = self.packing(program.between_plates(1.0, mu=0.3))
+        by_option, = self.limits(packing, "--load", "wall=plate,1,0+disk=0,0,-2e+0")
+        (self.folder / "load.toml").write_text(
+            '[[wall]]\nname = "plate"\nforce = [1, 0]\n[[disk]]\nid = 0\nforce = [0, -2]\n')
+        by_file, = self.limits(packing, "--load", "load.toml")
+        for key in ("smallest", "largest", "smallest_bounds", "largest_bounds"):
+            self.assertEqual(by_option[key], by_file[key])
+        # The plate presses with 1 + λ ≥ 0, the floor bears 2 + 3 λ ≥ 0.
+        self.assertAlmostEqual(by_option["smallest"], -2 / 3, delta=1e-15)
+        self.assertEqual(by_option["largest"], "inf")
+        self.run_indet("verify", "--exact", "p.limits.h5")
+
+    def test_a_loose_disk_is_left_out_and_named(self):
+        scene = program.groove(0.4)
+        scene["disks.csv"] += "7,20,1,1,1\n"
+        scene["walls.csv"] += "2,0,0,0,1,floor\n"
+        scene["contacts.csv"] += "1,-3\n"
+        packing = self.packing(scene)
+        self.assertEqual(self.limits(packing, "--tilt")[0]["largest"], 0)
+        tilt, = self.limits(packing, "--tilt", "--ignore-below", "5")
+        self.assertEqual(tilt["left_out"], [7])
+        self.assertAlmostEqual(tilt["largest"], 0.4, delta=1e-15)
+        with h5py.File(self.folder / "p.limits.h5") as file:
+            self.assertEqual(list(file["limits/0/left_out"]), [1])
+            self.assertEqual(file["limits/0/forces"].shape, (2, 6))
+        self.run_indet("verify", "--exact", "p.limits.h5")
+        self.assertIn("without disk 7", self.run_indet("inspect", "p.limits.h5").stdout)
+
+    def test_pictures(self):
+        packing = self.packing(program.pyramid(0.5))
+        self.run_indet("limit", packing, "--load", "disk=2,1,0", "--quiet")
+        for arguments in (["--style", "mechanism"], ["--style", "mechanism", "--limit", "0:smallest"],
+                          ["--state", "limit"]):
+            self.run_indet("export", "p.limits.h5", *arguments, "-o", "m.svg")
+            self.assertGreater((self.folder / "m.svg").stat().st_size, 1000)
+        # A packing that cannot stand is drawn with its motion.
+        self.packing(program.incline(), name="i")
+        self.run_indet("analyze", "i.h5", status=4)
+        self.run_indet("export", "i.ranges.h5", "--style", "mechanism", "-o", "i.svg")
+        done = self.run_indet("export", packing, "--style", "mechanism", status=3)
+        self.assertIn("indet limit p.h5", done.stderr)
+        done = self.run_indet("export", "p.limits.h5", "--style", "mechanism", "--limit", "3:largest", status=3)
+        self.assertIn("there is no limit 3; the file has 1 limit", done.stderr)
+
+    def test_messages(self):
+        packing = self.packing(program.pyramid(0.5))
+        for status, arguments, text in (
+                (2, [], "--tilt, --load or --friction"),
+                (2, ["--ignore-below", "3"], "--tilt"),
+                (2, ["--tilt", "--friction-of", "walls"], "without --friction"),
+                (2, ["--load", "disk=1,2"], "expected disk=ID"),
+                (2, ["--load", "disk=1,x,0"], '"x" is not a finite number'),
+                (2, ["--load", "disk=1,nan,0"], "not a finite number"),
+                (3, ["--load", "disk=9,1,0"], "there is no disk 9"),
+                (3, ["--load", "wall=lid,1,0"], 'there is no wall "lid"; the walls are floor'),
+                (3, ["--load", "wall=floor,1,0"], "is fixed along its normal"),
+                (3, ["--load", "stress=1,1,0"], "is not imposed"),
+                (3, ["--load", "gravity=0,0"], "the load is 0"),
+                (3, ["--load", "none.toml"], "there is no such file")):
+            done = self.run_indet("limit", packing, *arguments, status=status)
+            self.assertIn(text, done.stderr)
+            self.assertFalse((self.folder / "p.limits.h5").exists())
+        for text, reason in (("gravity = 3\n", "load.toml:1: gravity must be 2 numbers"),
+                             ("[[disk]]\nforce = [1, 2]\n", "load.toml:1: [[disk]] needs an id"),
+                             ("weight = 1\n", 'unknown key "weight"'), ("x = \n", "load.toml:1: ")):
+            (self.folder / "load.toml").write_text(text)
+            self.assertIn(reason, self.run_indet("limit", packing, "--load", "load.toml", status=3).stderr)
+        free = program.groove()
+        free["scene.toml"] = "gravity = [0, 0]\nmu = 0.3\nforce_unit = 1\n"
+        self.packing(free, name="f")
+        self.assertIn("there is none", self.run_indet("limit", "f.h5", "--tilt", status=3).stderr)
+
+
+if __name__ == "__main__":
+    program.main()
