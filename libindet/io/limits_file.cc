@@ -251,7 +251,8 @@ std::vector<Limit> read_limits(const Hdf5File& file) {
                                  file.path().string(), file.path().string()));
   const Packing packing = read_packing(file);
   const std::int64_t count = file.integer_attribute("/limits", "count");
-  if (count < 1 || count > 10000)
+  if (count < 1 || !file.has(group_of(static_cast<std::size_t>(count) - 1)) ||
+      file.has(group_of(static_cast<std::size_t>(count))))
     throw Hdf5ReadError(fmt::format("{}: /limits@count: {} limits", file.path().string(), count));
   std::vector<Limit> limits;
   for (std::int64_t k = 0; k < count; ++k)

@@ -9,6 +9,7 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/equilibrium/contact_state.h"
 #include "libindet/limit/exact_basis.h"
 #include "libindet/limit/limit_program.h"
 #include "libindet/limit/mechanism.h"
@@ -41,7 +42,7 @@ class FrictionFinder {
   FrictionLimit find() {
     const Standing without = stand(0);
     if (without.stands()) {
-      describe_state(without);
+      describe_state(without, 0);
       end_.outcome = LimitOutcome::kReached;
       end_.value = end_.lower = end_.upper = 0;
       return finish();
@@ -107,7 +108,7 @@ class FrictionFinder {
     const double above = zero * (1 + share);
     const Standing standing = stand(above);
     if (!standing.stands() || !prove_fall(below)) return false;
-    describe_state(standing);
+    describe_state(standing, zero);
     end_.outcome = LimitOutcome::kReached;
     end_.value = zero;
     end_.lower = below;
@@ -143,7 +144,7 @@ class FrictionFinder {
   void describe_any(double factor, const Standing& without) {
     const Standing standing = stand(factor);
     if (!standing.stands() || !without.falls()) return;
-    describe_state(standing);
+    describe_state(standing, factor);
     end_.motion = without.motion;
     end_.outcome = LimitOutcome::kReached;
     end_.value = end_.lower = 0;
@@ -169,10 +170,12 @@ class FrictionFinder {
     return near.forces.value().lpNorm<Eigen::Infinity>() > 100 * far.forces.value().lpNorm<Eigen::Infinity>();
   }
 
-  void describe_state(const Standing& standing) {
+  /// Its state is one just above the infimum, where contacts that slide at it do so but for some 1e-12.
+  void describe_state(const Standing& standing, double factor) {
     end_.forces = standing.forces;
-    end_.sliding = standing.sliding;
-    end_.non_transmitting = standing.non_transmitting;
+    const CoulombCount count = count_coulomb(at(factor), standing.forces, tolerance::kSliding);
+    end_.sliding = count.sliding;
+    end_.non_transmitting = count.non_transmitting;
   }
   FrictionLimit finish() {
     result_.infimum = std::move(end_);

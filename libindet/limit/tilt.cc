@@ -29,15 +29,6 @@ Vector2 quarter_turned(const Vector2& gravity, int quarters) {
   }
 }
 
-/// Forces for a multiple of gravity are the same multiple of those for gravity.
-bool is_homogeneous(Packing packing) {
-  packing.gravity.setZero();
-  const std::vector<ForceBound> bounds = force_bounds(packing);
-  return loads_of(packing).is_zero() &&
-         std::all_of(bounds.begin(), bounds.end(),
-                     [](const ForceBound& bound) { return bound.value == 0 && !bound.is_two_sided(); });
-}
-
 /// Gravity about one of four directions, with λ = tan of the angle to it.
 struct Quarter {
   Packing packing;
@@ -120,10 +111,18 @@ Vector2 turned_gravity(const Packing& packing, double angle) {
   return std::cos(rest) * g + std::sin(rest) * quarter_turned(g, 1);
 }
 
+bool is_under_gravity_alone(Packing packing) {
+  packing.gravity.setZero();
+  const std::vector<ForceBound> bounds = force_bounds(packing);
+  return loads_of(packing).is_zero() &&
+         std::all_of(bounds.begin(), bounds.end(),
+                     [](const ForceBound& bound) { return bound.value == 0 && !bound.is_two_sided(); });
+}
+
 bool TiltLimits::stands() const { return smallest.upper <= 0 && largest.lower >= 0; }
 
 TiltLimits find_tilt_limits(const Packing& packing, const LimitOptions& options) {
-  if (is_homogeneous(packing)) return TiltCone(packing, options).find();
+  if (is_under_gravity_alone(packing)) return TiltCone(packing, options).find();
   return find_tilt_arc(packing, options);
 }
 

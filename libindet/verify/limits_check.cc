@@ -54,6 +54,10 @@ class EndCheck {
         compare_(compare) {}
 
   void check(bool exact) {
+    if (end_.outcome != LimitOutcome::kReached)
+      compare_.require(
+          end_.sliding == -1 && end_.non_transmitting == -1 && end_.dim == -1 && !end_.has_one_mechanism,
+          "{}: it is not reached, and yet contacts are counted there", name_);
     switch (end_.outcome) {
       case LimitOutcome::kReached:
         check_state();
@@ -111,11 +115,12 @@ class EndCheck {
     const double worst = compare_.add_state(problem, forces);
     compare_.require(worst <= tolerance::kResistedMotion * largest,
                      "{}: the state there misses balance or friction by {} mg", name_, worst);
-    check_counts(problem, forces, largest);
+    check_counts(problem, forces);
   }
 
   /// Strengths that are 0 exactly are 0 within rounding, too; others that are nearly 0 leave it open.
-  void check_counts(const RebuiltProblem& problem, const Eigen::VectorXd& forces, double largest) {
+  void check_counts(const RebuiltProblem& problem, const Eigen::VectorXd& forces) {
+    const double unit = problem.internal_unit();
     int sliding = 0;
     int non_transmitting = 0;
     bool is_clear = true;
@@ -123,14 +128,14 @@ class EndCheck {
       int closed = 0;
       for (const int k : {0, 1}) {
         const double slack = problem.slack(2 * contact + k, forces);
-        closed += slack <= tolerance::kSliding * largest ? 1 : 0;
-        is_clear =
-            is_clear && (slack <= tolerance::kAgreement * largest || slack > tolerance::kSliding * largest);
+        closed += slack <= tolerance::kSliding * unit ? 1 : 0;
+        is_clear = is_clear && (slack <= tolerance::kAgreement * unit || slack > tolerance::kSliding * unit);
       }
       if (!problem.has_friction(contact) && closed < 2) closed = 1;  // its second edge is not there
       sliding += closed;
       non_transmitting += closed == 2 ? 1 : 0;
     }
+    is_clear = is_clear || limit_.kind == LimitKind::kFriction;  // whose state is not quite at the limit
     const bool agrees = is_clear ? end_.sliding == sliding && end_.non_transmitting == non_transmitting
                                  : end_.sliding <= sliding && end_.non_transmitting <= non_transmitting;
     compare_.require(agrees,
@@ -233,7 +238,11 @@ class EndCheck {
 
   /// The ray balances the change of the load alone.
   void check_ray() {
-    compare_.require(end_.value == sign_ * kInfinity, "{}: never, yet the value is {}", name_, end_.value);
+    const double never = sign_ * kInfinity;
+    compare_.require(end_.value == never && end_.lower == never && end_.upper == never,
+                     "{}: never, yet the value is {}, between {} and {}", name_, end_.value, end_.lower,
+                     end_.upper);
+    compare_.require(end_.motion.disks.rows() == 0, "{}: never, yet there is a motion", name_);
     if (limit_.kind == LimitKind::kFriction) return;  // larger cones hold the smaller ones
     if (limit_.kind == LimitKind::kTilt) {
       compare_.leave_unchecked(
@@ -259,6 +268,11 @@ class EndCheck {
 
   /// No multiple of the load has a state: the motion is not resisted, and the change has no power.
   void check_fall() {
+    const bool is_factor = limit_.kind == LimitKind::kFriction && sign_ < 0;
+    compare_.require(
+        is_factor ? end_.value == kInfinity && end_.upper == kInfinity
+                  : std::isnan(end_.value) && end_.lower == -kInfinity && end_.upper == kInfinity,
+        "{}: no state, yet the value is {}, between {} and {}", name_, end_.value, end_.lower, end_.upper);
     Packing rest = without(packing_, limit_.left_out);
     if (limit_.kind == LimitKind::kFriction) {
       if (sign_ > 0) return;  // of the smallest one
@@ -324,13 +338,14 @@ Verification verify_limits(const Packing& packing, const std::vector<Limit>& lim
                     "{}: one end says that there is no state, the other one does not", limit.load);
     compare.require(!(limit.smallest.lower > limit.largest.upper), "{}: the ends are in the wrong order",
                     limit.load);
+    const bool turns = limit.kind != LimitKind::kTilt || is_under_gravity_alone(packing);
+    compare.require(limit.is_first_of_several == !turns, "{}: first_of_several is {}", limit.load,
+                    limit.is_first_of_several);
     for (const bool is_largest : {false, true}) EndCheck(packing, limit, is_largest, compare).check(exact);
   }
-  if (!exact)
-    compare.leave_unchecked(
-        "dim and one_mechanism of limits, and the last digits of bounds (--exact proves these)");
-  else
-    compare.leave_unchecked("dim and one_mechanism of limits");
+  std::string unchecked = "dim and one_mechanism of limits, attained of limits of friction";
+  if (!exact) unchecked += ", and the last digits of bounds (--exact proves these)";
+  compare.leave_unchecked(std::move(unchecked));
   return compare.result();
 }
 

@@ -84,7 +84,7 @@ class Limits(program.ProgramTest):
         scene = program.groove(0.4)
         scene["disks.csv"] += "7,20,1,1,1\n"
         scene["walls.csv"] += "2,0,0,0,1,floor\n"
-        scene["contacts.csv"] += "1,-3\n"
+        scene["contacts.csv"] += "7,-3\n"
         packing = self.packing(scene)
         self.assertEqual(self.limits(packing, "--tilt")[0]["largest"], 0)
         tilt, = self.limits(packing, "--tilt", "--ignore-below", "5")

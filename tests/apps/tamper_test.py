@@ -331,9 +331,9 @@ class OfRanges(Tampered):
 class OfLimits(Tampered):
     def test_results_with_a_forged_digest(self):
         self.make("limit", "q.h5", "--tilt", "--load", "disk=2,1,-0.5", "--friction")
-        # All that is stored but two properties of what is left at the limit, which need exact arithmetic.
+        # All that is stored but three properties, which need exact arithmetic.
         names = {re.sub(r"\d", "K", place) for place in self.unnoticed("limits")}
-        self.assertEqual(names, places("limits/K/", "dim one_mechanism"))
+        self.assertEqual(names, places("limits/K", "/dim /one_mechanism @attained"))
 
 
 class OfSamples(Tampered):
