@@ -1,7 +1,8 @@
 #include "libsim/sweep.h"
 
 #include <algorithm>
-#ifdef __x86_64__
+
+#ifdef INDET_WIDER_LANES
 #include <immintrin.h>
 #endif
 
@@ -60,7 +61,7 @@ void push(VelocityRow* rows, const std::array<int, 4>& body, const Four& x, cons
 
 }  // namespace pairs
 
-#ifdef __x86_64__
+#ifdef INDET_WIDER_LANES
 #pragma GCC push_options
 #pragma GCC target("avx2")
 /// One register of four doubles.
@@ -126,7 +127,7 @@ double sweep_in_pairs(SweepParts parts, std::span<ContactGroup> groups, std::spa
 }
 
 double sweep(SweepParts parts, std::span<ContactGroup> groups, std::span<VelocityRow> rows) {
-#ifdef __x86_64__
+#ifdef INDET_WIDER_LANES
   static const bool has_fours = __builtin_cpu_supports("avx2") != 0;
   if (has_fours) return fours::sweep(parts, groups, rows.data());
 #endif

@@ -8,6 +8,7 @@
 #include "libindet/barrier/aligned_memory.h"
 #include "libindet/barrier/block_cholesky.h"
 #include "libindet/base/constants.h"
+#include "libindet/base/lanes.h"
 #include "libindet/base/tolerances.h"
 
 namespace indet::barrier {
@@ -25,7 +26,7 @@ constexpr int kRegisters = 4;
 #include "libindet/barrier/lock_step.inc"
 }  // namespace pairs
 
-#ifdef __x86_64__
+#ifdef INDET_WIDER_LANES
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace fours {
@@ -48,7 +49,7 @@ constexpr int kRegisters = 1;
 #endif
 
 int widest_registers() {
-#ifdef __x86_64__
+#ifdef INDET_WIDER_LANES
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq"))
     return 512;
@@ -66,7 +67,7 @@ int vector_bits() {
 
 void minimise_in_lock_step(const BlockStructure& structure, const AnalyticCentre& centre,
                            const LockStepOptions& options, const LockStepCalls& calls) {
-#ifdef __x86_64__
+#ifdef INDET_WIDER_LANES
   const int bits = std::min(options.vector_bits, vector_bits());
   if (bits >= 512) return eights::LockStep(structure, centre, options, calls).run();
   if (bits >= 256) return fours::LockStep(structure, centre, options, calls).run();

@@ -4,6 +4,11 @@
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
+// Where a part of a file can be compiled for wider registers: `#pragma GCC target`, which Clang does not
+// know. Whether the processor has them is asked when the program runs.
+#if defined(__x86_64__) && !defined(__clang__)
+#define INDET_WIDER_LANES
+#endif
 
 namespace indet {
 

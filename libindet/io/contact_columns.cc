@@ -11,7 +11,7 @@ std::vector<RangeColumn> range_columns(const ForceRanges& ranges, double mg) {
   visit_fields(ranges, [&]<class Value>(const Field& field, const Value& value) {
     if constexpr (requires { requires Value::ColsAtCompileTime == 1; }) {
       if (field.rows != Extent::kContacts || !is_present(field.presence, ranges, value.rows())) return;
-      RangeColumn& column = columns.emplace_back(field.name, value.template cast<double>());
+      RangeColumn& column = columns.emplace_back(RangeColumn{field.name, value.template cast<double>(), {}});
       for (const Column end : {kMinR, kMaxR, kMinT, kMaxT}) {
         if (column.name == to_string(end)) column.end = end;
       }

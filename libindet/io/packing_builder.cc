@@ -183,7 +183,7 @@ void PackingBuilder::set_friction() {
 
 void PackingBuilder::check_friction_names() const {
   for (const auto& [name, unused] : settings_.friction.walls()) {
-    const bool known = std::any_of(wall_names_.begin(), wall_names_.end(), [&](const auto& names) {
+    const bool known = std::any_of(wall_names_.begin(), wall_names_.end(), [&name = name](const auto& names) {
       return std::find(names.begin(), names.end(), name) != names.end();
     });
     if (known) continue;

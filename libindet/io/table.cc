@@ -147,7 +147,9 @@ void Table::allow_only(const std::vector<std::string>& columns) const {
 }
 
 std::string_view Table::text(int row, std::string_view column) const {
-  return fields_[static_cast<std::size_t>(row) * columns_.size() + index_.at(column)];
+  const auto found = index_.find(column);
+  if (found == index_.end()) require({std::string(column)});  // which throws
+  return fields_[static_cast<std::size_t>(row) * columns_.size() + found->second];
 }
 
 bool Table::is_empty(int row, std::string_view column) const {

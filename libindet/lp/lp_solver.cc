@@ -61,7 +61,7 @@ struct LpSolver::Impl {
 };
 
 LpSolver::LpSolver(const SlopeView& view, Formulation formulation, const LpOptions& options)
-    : impl_(std::make_unique<Impl>(view, options, order_of(view, formulation))) {}
+    : impl_(std::make_unique<Impl>(Impl{view, options, order_of(view, formulation), {}})) {}
 
 LpSolver::~LpSolver() = default;
 

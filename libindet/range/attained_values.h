@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "libindet/packing/force_bounds.h"
 #include "libindet/packing/packing.h"
 #include "libindet/range/outcome.h"
 

@@ -48,6 +48,7 @@ class Liggghts(ImportTest):
                 ("contacts.dump", "1 1 6 0 7.5279578711251034 -21.820160577051862 0",
                  "1 1 6 0 7.5279578711251034 -21.820160577051862 1", "contacts.dump:10: the force of c_pl points out of"),
                 ("contacts.dump", "c_pl[6]", "other", "contacts.dump:9: column c_NAME[1] is missing"),
+                ("contacts.dump", "c_pl[4]", "other", "contacts.dump:9: column c_pl[4] is missing"),
                 ("atoms.dump", "f_force_wy[3]", "other", "atoms.dump:9: column f_force_wy[3] is missing")]:
             with self.subTest(message):
                 folder = self.copy("liggghts")
