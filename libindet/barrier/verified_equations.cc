@@ -12,6 +12,7 @@ namespace indet::barrier {
 namespace {
 
 constexpr double kSmallest = 0x1p-300;
+constexpr double kSmallestSquared = 0x1p-500;  ///< below it squares lose digits
 /// More of the centre's multipliers than rounding asks for, so that their own rounding does no harm.
 constexpr double kRoomForRounding = 1.5;
 /// A residual, in the unit of the problem, of which a repair may leave more than rounding: it leaves some
@@ -271,12 +272,21 @@ double VerifiedEquations::shift_of(std::span<const double> x) const {
     rows[place].size += std::abs(term);
     rows[place].strengths += std::abs(x[column]);
   });
-  double sum = 0;
+  std::vector<double> residual(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (static_cast<int>(i) == structure_.limit_place()) continue;  // the slack, of any sign, makes up for it
     const double rounding = gamma(row_terms_[i] + 2) * rows[i].size + entry_error_[i] * rows[i].strengths;
-    const double residual = std::abs(rows[i].residual) + widen_ * rounding + load_error_[i] + kTiny;
-    sum += residual * residual * scale_[i] * scale_[i];
+    residual[i] = std::abs(rows[i].residual) + widen_ * rounding + load_error_[i] + kTiny;
+  }
+  return shift_of_residual(residual);
+}
+
+double VerifiedEquations::shift_of_residual(std::span<const double> residual) const {
+  if (!(sigma_ > 0)) return kInfinity;
+  double sum = 0;
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    if (static_cast<int>(i) == structure_.limit_place()) continue;  // the slack, of any sign, makes up for it
+    const double scaled = std::max(residual[i] * scale_[i], kSmallestSquared);
+    sum += scaled * scaled;
   }
   const double shift = widen_ * std::sqrt(widen_ * sum) / sigma_;
   return std::isnan(shift) ? kInfinity : shift;

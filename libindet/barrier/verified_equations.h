@@ -70,6 +70,8 @@ class VerifiedEquations {
   /// x, moved to A x = b but for rounding.
   std::vector<double> repaired(std::span<const double> x) const;
   NearestSolution nearest_solution(std::span<const double> x) const;
+  /// η of any x of which these bound |b − A x|, one a row in the structure's order.
+  double shift_of_residual(std::span<const double> residual) const;
   /// Bound of the least value from above, by the solution near x.
   double upper_bound(const Objective& objective, std::span<const double> x,
                      const NearestSolution& nearest) const;

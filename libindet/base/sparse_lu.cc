@@ -9,7 +9,7 @@
 namespace indet {
 
 struct SparseLu::Impl {
-  explicit Impl(double least_share) {
+  Impl(double least_share, double pivot) : least_pivot(pivot) {
     klu_defaults(&common);
     common.halt_if_singular = 0;
     common.tol = least_share;
@@ -24,11 +24,13 @@ struct SparseLu::Impl {
   }
 
   klu_common common;
+  double least_pivot;
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
 };
 
-SparseLu::SparseLu(double least_share) : impl_(std::make_unique<Impl>(least_share)) {}
+SparseLu::SparseLu(double least_share, double least_pivot)
+    : impl_(std::make_unique<Impl>(least_share, least_pivot)) {}
 SparseLu::~SparseLu() = default;
 SparseLu::SparseLu(SparseLu&&) noexcept = default;
 
@@ -44,7 +46,7 @@ std::optional<SparseLu::Dependent> SparseLu::factor(std::span<int> first, std::s
   // Behind the first pivot that vanishes there are no numbers.
   const auto* pivots = static_cast<const double*>(impl_->numeric->Udiag);
   for (int k = 0; k < size; ++k) {
-    if (!(std::abs(pivots[k]) > kLeastPivot))
+    if (!(std::abs(pivots[k]) > impl_->least_pivot))
       return Dependent{impl_->symbolic->Q[k], impl_->numeric->Pnum[k]};
   }
   return {};

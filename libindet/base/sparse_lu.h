@@ -12,7 +12,8 @@ namespace indet {
 class SparseLu {
  public:
   /// `least_share`: how small a pivot may be, relative to its column, where its place suits the order.
-  explicit SparseLu(double least_share = 1e-3);
+  /// `least_pivot`: above which a matrix is regular.
+  explicit SparseLu(double least_share = 1e-3, double least_pivot = kLeastPivot);
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;
 

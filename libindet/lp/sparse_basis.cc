@@ -62,6 +62,15 @@ Eigen::VectorXd SparseBasis::edge(int k) const {
   return direction;
 }
 
+Eigen::VectorXd SparseBasis::direction(const Eigen::VectorXd& rates) const {
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(set_->inequalities());
+  along(active_) = rates;
+  Eigen::VectorXd right = -(set_->equations * along);
+  lu_.solve(span_of(right));
+  along(basic_) = right;
+  return along;
+}
+
 Eigen::VectorXd SparseBasis::multipliers(const std::vector<std::pair<int, double>>& on_edges) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(set_->equations.rows());
   Eigen::VectorXd costs = Eigen::VectorXd::Zero(std::ssize(active_));

@@ -24,6 +24,8 @@ class SparseBasis {
 
   Eigen::VectorXd point() const;      ///< K; one step of refinement
   Eigen::VectorXd edge(int k) const;  ///< K
+  /// The direction in which the active inequalities grow so fast: x_N = rates, x_B = −E_B⁻¹ E_N rates. K
+  Eigen::VectorXd direction(const Eigen::VectorXd& rates) const;
   Eigen::VectorXd multipliers(const std::vector<std::pair<int, double>>& on_edges) const;  ///< d
 
  private:

@@ -43,6 +43,11 @@ Eigen::VectorXd Vertex::edge_rates(const SlopeView& view, int k) const {
   return view.slope * edge_direction(k);
 }
 
+Eigen::VectorXd Vertex::direction(const SlopeView& view, const Eigen::VectorXd& rates) const {
+  if (sparse) return sparse->direction(rates);
+  return view.slope * active.solve(rates);
+}
+
 void Vertex::drop_factors() {
   active = {};
   sparse.reset();
@@ -53,6 +58,15 @@ Eigen::VectorXd Vertex::multipliers(const Objective& objective) const {
   if (sparse) return sparse->multipliers(objective.on_edges);
   const Eigen::VectorXd costs = active.transpose().solve(objective.along_z);
   return -costs;
+}
+
+Eigen::VectorXd Vertex::multipliers(const SlopeView& view, const Eigen::VectorXd& e) const {
+  if (!sparse) return multipliers(Objective{view.slope.transpose() * e, {}});
+  std::vector<std::pair<int, double>> on_edges;
+  for (Eigen::Index k = 0; k < e.size(); ++k) {
+    if (e[k] != 0) on_edges.emplace_back(static_cast<int>(k), e[k]);
+  }
+  return sparse->multipliers(on_edges);
 }
 
 Vertex compute_vertex(const SlopeView& view, const Basis& basis) {

@@ -25,6 +25,9 @@ struct Vertex {
   /// How fast the inequalities grow along it, S S_N⁻¹ 1_k. [K]
   Eigen::VectorXd edge_rates(const SlopeView& view, int k) const;
 
+  /// The direction in which the active inequalities grow so fast, S S_N⁻¹ rates. [K]
+  Eigen::VectorXd direction(const SlopeView& view, const Eigen::VectorXd& rates) const;
+
   /// The vertex without its factors.
   void drop_factors();
 
@@ -34,6 +37,8 @@ struct Vertex {
   /// Reduced costs of maximising g·z: λ = −S_N⁻ᵀ g. The vertex is optimal if λ ≥ 0; λ_k is the loss per unit
   /// of leaving inequality k.
   Eigen::VectorXd multipliers(const Objective& objective) const;
+  /// The same of e·x, one coefficient an inequality.
+  Eigen::VectorXd multipliers(const SlopeView& view, const Eigen::VectorXd& e) const;
 };
 
 /// Throws LibraryError if the active rows are not independent. Preconditions: basis.size() = d.

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "libindet/base/disjoint_sets.h"
+#include "libindet/base/doubled_sum.h"
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/packing/doubled_sum.h"
 
 namespace indet {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libindet/packing/doubled_sum.h"
+#include "libindet/base/doubled_sum.h"
 
 namespace indet {
 

@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "libindet/base/doubled_sum.h"
 #include "libindet/base/error.h"
-#include "libindet/packing/doubled_sum.h"
 
 namespace indet {
 

@@ -134,7 +134,7 @@ class BarrierSearch {
     const std::vector<int> first = problem_.first_unknowns();
     for (const int i : contacts_) {
       for (const bool tangential : {false, true}) {
-        barrier::Objective objective = force_component(problem_, first, i, tangential, 1).on_edges;
+        barrier::Objective objective = force_component(problem_, first, i, tangential, 1);
         std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
         const Target least{false, i, tangential ? kMinT : kMinR};
         const Target largest{false, i, tangential ? kMaxT : kMaxR, -1};
@@ -177,10 +177,12 @@ class BarrierSearch {
       const ReactionSum& sum = sums_[k];
       const auto row = static_cast<Eigen::Index>(k);
       describe(k);
-      const Functional f = sum_of_forces(problem_, sum.coefficients);
       const double rounding =
-          polytope_.central ? f.rounding(polytope_.central->equations->strength_bounds()) : 0;
-      for (const int end : {0, 1}) add({true, row, end, end == 0 ? 1.0 : -1.0, rounding}, f.on_edges);
+          polytope_.central
+              ? rounding_of_sum(problem_, sum.coefficients, polytope_.central->equations->strength_bounds())
+              : 0;
+      for (const int end : {0, 1})
+        add({true, row, end, end == 0 ? 1.0 : -1.0, rounding}, sum_of_forces(problem_, sum.coefficients));
     }
   }
 
@@ -309,18 +311,15 @@ BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& p
   return BarrierSearch(packing, polytope, contacts, widths, reactions, options, duals).run();
 }
 
-barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem) {
+barrier::ValueBounds value_bounds(const barrier::ValueBounds& least, double sign,
+                                  const EquilibriumProblem& problem) {
+  if (least.lower == 0 && least.upper == 0) return {0, 0};
   const double unit = problem.units.internal_in_scene();
   const auto room = [&](double bound) {
     return bound == 0 ? 0 : unit * (4 * kRoundoff * std::abs(bound) + kTiny);
   };
-  return {bounds.lower * unit - room(bounds.lower), bounds.upper * unit + room(bounds.upper)};
-}
-
-barrier::ValueBounds value_bounds(const barrier::ValueBounds& least, double sign,
-                                  const EquilibriumProblem& problem) {
-  if (least.lower == 0 && least.upper == 0) return {0, 0};
-  const barrier::ValueBounds bounds = in_scene_units(least, problem);
+  const barrier::ValueBounds bounds{least.lower * unit - room(least.lower),
+                                    least.upper * unit + room(least.upper)};
   return sign < 0 ? barrier::ValueBounds{-bounds.upper, -bounds.lower} : bounds;
 }
 

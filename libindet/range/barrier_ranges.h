@@ -33,10 +33,8 @@ BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& p
                                   bool reactions, const IntervalOptions& options,
                                   const DualChoice& duals = {});
 
-/// Bounds in the unit of a problem, in the scene's: rounded outwards.
-barrier::ValueBounds in_scene_units(const barrier::ValueBounds& bounds, const EquilibriumProblem& problem);
-
-/// Of a value in the scene's units, from those of the least value of the objective sign · value.
+/// Bounds of a value in the scene's units, rounded outwards, from those of the least value of the objective
+/// sign · value in the problem's.
 barrier::ValueBounds value_bounds(const barrier::ValueBounds& least, double sign,
                                   const EquilibriumProblem& problem);
 

@@ -85,8 +85,7 @@ class StateSearch {
         const double sign = column == kMaxR || column == kMaxT ? -1 : 1;
         const int other = column % 2 == 0 ? column + 1 : column - 1;
         const auto agree = [&](const Table4<double>& ends) { return ends(i, column) == ends(i, other); };
-        WantedState target{i, column, sign,
-                           force_component(problem_, first, i, column >= kMinT, sign).on_edges,
+        WantedState target{i, column, sign, force_component(problem_, first, i, column >= kMinT, sign),
                            agree(found_.enclosures.lower) && agree(found_.enclosures.upper)};
         std::erase_if(target.value, [](const auto& entry) { return entry.second == 0; });
         targets_.push_back(std::move(target));

@@ -58,7 +58,7 @@ void enclose_determined(const Packing& packing, const ForcePolytope& polytope, c
   const DeterminedForces determined(problem, *polytope.central);
   std::int64_t done = 0;
   for (const auto& [contact, tangential] : forces) {
-    barrier::Objective objective = force_component(problem, first, contact, tangential, 1).on_edges;
+    barrier::Objective objective = force_component(problem, first, contact, tangential, 1);
     std::erase_if(objective, [](const auto& entry) { return entry.second == 0; });
     ValueInterval interval{0, 0, 0, 0, {}, {}};
     if (!objective.empty()) interval = determined.enclose(objective);

@@ -91,7 +91,7 @@ class DistanceSearch {
         Candidate force;
         force.contact = i;
         force.component = component;
-        force.value = force_component(problem_, first, i, component == 1, 1).on_edges;
+        force.value = force_component(problem_, first, i, component == 1, 1);
         std::erase_if(force.value, [](const auto& entry) { return entry.second == 0; });
         for (const auto& [column, coefficient] : force.value)
           force.opposite.emplace_back(column, -coefficient);

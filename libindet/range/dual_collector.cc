@@ -111,8 +111,7 @@ void DualCollector::add(int contact, int column, std::vector<double> x, const st
   const double sign = column == kMaxR || column == kMaxT ? -1 : 1;
   Eigen::VectorXd natural = natural_motion(y);
   Eigen::VectorXd along = powers(natural);
-  for (const auto& [k, weight] :
-       force_component(polytope_.natural, first_, contact, column >= kMinT, sign).on_edges)
+  for (const auto& [k, weight] : force_component(polytope_.natural, first_, contact, column >= kMinT, sign))
     along[k] -= weight;
   double share = 0;
   for (const int k : closed_) share = std::max(share, along[k] / closing_powers_[k]);

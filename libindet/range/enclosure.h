@@ -40,35 +40,30 @@ struct Enclosures {
 
 /// Rigorous enclosures of the optimal values, and their sensitivity to the geometry.
 ///
-/// The exact problem is A u = b, x(u) ≥ 0, with the doubles of the packing taken as they are; A and b in
-/// memory differ from it by rounding, which is bounded entry by entry. With P ≈ A⁺ from a QR factorisation
-/// (rows of A independent), γ = ‖A P − 1‖∞ < 1 proves that every right-hand side ρ has a solution A Δ = ρ
-/// with ‖Δ‖∞ ≤ η = ‖P‖∞ ‖ρ‖∞ / (1 − γ). For max g·u:
+/// The exact problem is A x = b, x ≥ 0, with the doubles of the packing taken as they are, and max g·x:
 ///
-///   from above, by weak duality, for any y:   g·u ≤ y·b + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y  (on edges)
+///   from above, by weak duality, for any y:   g·x ≤ y·b + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y
 ///
-///     where y = Pᵀ (g − h̃) from the reduced costs h̃ = −λ of the basis, and X_k is any bound of x_k over F:
-///     from the same inequality for Σx, whose y comes from the proof that F is bounded
+///     with y from the basis of the value (basis_system.h) and any bounds X_k of x_k over F
+///     (solution_bounds.h). Where F is unbounded there are none, and y is tilted so that every h_k ≤ 0
+///     (tilted_multipliers.h)
 ///
-///   from below, by an admissible state: the stored one plus its Δ violates x ≥ 0 by at most η
+///   from below, by an admissible state: an exact solution is near the x of the basis, and moved by a share θ
+///     towards a solution inside, which keeps a margin from every edge, it violates no x ≥ 0
 ///
-///     moved by a share θ towards the interior point (plus its own Δ), which keeps a margin from every edge,
-///     it violates nothing
-///
-/// and vice versa for a minimum. Roundings of the evaluation are bounded a priori (Higham, Accuracy and
-/// Stability of Numerical Algorithms, ch. 3: |fl(x·y) − x·y| ≤ n u |x|·|y| / (1 − n u)); y·b by Ogita, Rump
-/// and Oishi's Dot2.
+/// and vice versa for a minimum. x and y are pairs of doubles, and so are A, b and g (doubled_equations.h):
+/// b − A x and what should vanish of h are about 1e-28, so that neither X nor the distance of solutions
+/// matters. What is left is the rounding of the ends, the distance of the stored value, and what the basis is
+/// short of being optimal or admissible.
 ///
 /// Preconditions on which the enclosure rests and that are proven elsewhere: the rank and the closed edges
-/// (exact::proves_structure). Where a step fails, that side of the enclosure is infinite. Where F is
-/// unbounded there are no X_k: the outer side stays infinite unless every h_k ≤ 0.
+/// (exact::proves_structure). Where a step fails, that side of the enclosure is infinite.
 ///
 /// Objectives without an entry in `extrema.proofs` are determined: the same in every state. An empty F has
 /// nothing to enclose; `proven` then tells whether its emptiness is beyond doubt.
-/// Where the polytope has its analytic centre, it proves the same inequalities without P
-/// (central_enclosure.h).
 /// `sums`: further functionals, of several contacts at once, to be enclosed likewise. `progress` is told how
-/// many values of how many are enclosed; false stops it (Interrupted).
+/// many values of how many are enclosed; false stops it (Interrupted). Precondition: polytope.exact, where F
+/// is not empty.
 Enclosures enclose_values(const ForcePolytope& polytope, const Extrema& extrema,
                           std::span<const SumAtOptimum> sums = {}, const StageProgress& progress = {});
 

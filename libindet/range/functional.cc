@@ -1,78 +1,91 @@
 #include "libindet/range/functional.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "libindet/base/rounding_bounds.h"
 
 namespace indet {
+namespace {
 
-double Functional::at(const Eigen::VectorXd& u) const {
-  double value = 0;
-  for (const auto& [unknown, coefficient] : on_unknowns) value += coefficient * u[unknown];
-  return value;
+/// on_R R + on_T T on an edge, κ (on_R ± μ on_T). Of the sum of on_R and the two parts of a product, the low
+/// part alone is rounded, and where the high ones cancel it is not.
+Doubled coefficient(const EquilibriumProblem& problem, const Edge& edge, double on_R, double on_T) {
+  DoubledSum direction;
+  direction.add(on_R);
+  if (edge.sign != 0) direction.add_product(edge.sign * problem.mu(edge), on_T);
+  return product(direction.doubled(), edge.R);
 }
 
-double Functional::rounding(const std::vector<double>& strength) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < on_edges.size(); ++k)
-    sum += edge_size(k) * strength[static_cast<std::size_t>(on_edges[k].first)];
-  // Each is a sum of two products with rounded factors.
-  return sum == 0 ? 0 : 5 * kRoundoff * sum + kTiny;
+/// Calls visit(k, edge) for the edges of a contact.
+template <class Visit>
+void for_each_edge(const EquilibriumProblem& problem, const std::vector<int>& first, Eigen::Index contact,
+                   Visit visit) {
+  const int start = first[static_cast<std::size_t>(contact)];
+  if (start < 0) return;
+  const int edges = problem.is_stick(problem.edge(start)) ? 2 : 1;
+  for (int k = start; k < start + edges; ++k) visit(k, problem.edge(k));
 }
 
-Functional Functional::opposite() const {
-  Functional f = *this;
-  for (auto* part : {&f.on_unknowns, &f.on_edges}) {
-    for (auto& entry : *part) entry.second = -entry.second;
-  }
-  return f;
-}
-
-Functional sum_of_forces(const EquilibriumProblem& problem, const Eigen::VectorXd& on_forces) {
-  Functional f;
+/// Calls visit(k, edge, on_R, on_T) for all edges on which a sum is not 0.
+template <class Visit>
+void for_each_summand(const EquilibriumProblem& problem, const Eigen::VectorXd& on_forces, Visit visit) {
   for (int k = 0; k < problem.unknowns(); ++k) {
     const Edge& edge = problem.edge(k);
     if (edge.is_slack()) continue;
     const double on_R = on_forces[2 * edge.contact.value()];
     const double on_T = on_forces[2 * edge.contact.value() + 1];
-    if (on_R == 0 && on_T == 0) continue;
-    f.on_edges.emplace_back(k, on_R * edge.R + on_T * edge.T);
-    f.edge_sizes.push_back(std::abs(on_R * edge.R) + std::abs(on_T * edge.T));
-    if (problem.is_stick(edge)) {  // its unknowns are R, then T
-      f.on_unknowns.emplace_back(k, edge.sign > 0 ? on_R : on_T);
-      f.unknown_sizes.push_back(std::abs(f.on_unknowns.back().second));
-    } else {
-      f.on_unknowns.push_back(f.on_edges.back());
-      f.unknown_sizes.push_back(f.edge_sizes.back());
-    }
+    if (on_R != 0 || on_T != 0) visit(k, edge, on_R, on_T);
   }
-  return f;
 }
+
+}  // namespace
 
 Functional force_component(const EquilibriumProblem& problem, const std::vector<int>& first,
                            Eigen::Index contact, bool tangential, double sign) {
   Functional f;
-  const int start = first[static_cast<std::size_t>(contact)];
-  if (start < 0) return f;
-  const int edges = problem.is_stick(problem.edge(start)) ? 2 : 1;
-  for (int k = start; k < start + edges; ++k) {
-    const Edge& edge = problem.edge(k);
-    const double coefficient = sign * (tangential ? edge.T : edge.R);
-    f.on_edges.emplace_back(k, coefficient);
-    if (edges == 1) f.on_unknowns.emplace_back(k, coefficient);
-  }
-  if (edges == 2) f.on_unknowns.emplace_back(start + (tangential ? 1 : 0), sign);
+  for_each_edge(problem, first, contact,
+                [&](int k, const Edge& edge) { f.emplace_back(k, sign * (tangential ? edge.T : edge.R)); });
   return f;
 }
 
-Objective objective_on(const PolytopeBlock& block, const Functional& f) {
-  std::vector<std::pair<int, double>> on_edges;
-  for (const auto& [edge, coefficient] : f.on_edges) {
-    const auto local = std::lower_bound(block.edges.begin(), block.edges.end(), edge);
-    if (local != block.edges.end() && *local == edge)
-      on_edges.emplace_back(static_cast<int>(local - block.edges.begin()), coefficient);
-  }
-  return make_objective(block.view, std::move(on_edges));
+DoubledFunctional doubled_component(const EquilibriumProblem& problem, const std::vector<int>& first,
+                                    Eigen::Index contact, bool tangential, double sign) {
+  DoubledFunctional f;
+  for_each_edge(problem, first, contact, [&](int k, const Edge& edge) {
+    f.emplace_back(k, coefficient(problem, edge, tangential ? 0 : sign, tangential ? sign : 0));
+  });
+  return f;
+}
+
+Functional sum_of_forces(const EquilibriumProblem& problem, const Eigen::VectorXd& on_forces) {
+  Functional f;
+  for_each_summand(problem, on_forces, [&](int k, const Edge& edge, double on_R, double on_T) {
+    f.emplace_back(k, on_R * edge.R + on_T * edge.T);
+  });
+  return f;
+}
+
+DoubledFunctional doubled_sum(const EquilibriumProblem& problem, const Eigen::VectorXd& on_forces) {
+  DoubledFunctional f;
+  for_each_summand(problem, on_forces, [&](int k, const Edge& edge, double on_R, double on_T) {
+    f.emplace_back(k, coefficient(problem, edge, on_R, on_T));
+  });
+  return f;
+}
+
+double rounding_of_sum(const EquilibriumProblem& problem, const Eigen::VectorXd& on_forces,
+                       const std::vector<double>& strength) {
+  double sum = 0;
+  for_each_summand(problem, on_forces, [&](int k, const Edge& edge, double on_R, double on_T) {
+    sum += (std::abs(on_R * edge.R) + std::abs(on_T * edge.T)) * strength[static_cast<std::size_t>(k)];
+  });
+  // Each is a sum of two products with rounded factors.
+  return sum == 0 ? 0 : 5 * kRoundoff * sum + kTiny;
+}
+
+DoubledFunctional opposite(DoubledFunctional functional) {
+  for (auto& [k, coefficient] : functional) coefficient = {-coefficient.high, -coefficient.low};
+  return functional;
 }
 
 }  // namespace indet

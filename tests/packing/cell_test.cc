@@ -7,7 +7,6 @@
 
 #include "libindet/base/error.h"
 #include "libindet/packing/cancelling_loads.h"
-#include "libindet/packing/doubled_sum.h"
 #include "libindet/packing/validate.h"
 #include "tests/support/scene_builder.h"
 
@@ -42,21 +41,6 @@ Contact contact_of(const Packing& packing, DiskId a, DiskId b, Image image) {
 std::string reason_of(const Packing& packing) {
   const auto defect = find_defect(packing);
   return defect ? defect->reason : "";
-}
-
-TEST(DoubledSum, KeepsWhatCancels) {
-  DoubledSum sum;
-  sum.add(1e16);
-  sum.add(1);
-  sum.add_product(-1e8, 1e8);
-  EXPECT_EQ(sum.value(), 1);
-  // (1 + ε)² − 1 − 2ε = ε²
-  constexpr double kEpsilon = 0x1p-40;
-  DoubledSum square;
-  square.add_product(1 + kEpsilon, 1 + kEpsilon);
-  square.add(-1);
-  square.add(-2 * kEpsilon);
-  EXPECT_EQ(square.value(), kEpsilon * kEpsilon);
 }
 
 TEST(Cell, AreaOfAThinOneIsPrecise) {

@@ -323,7 +323,7 @@ TEST(Enclosures, ByTheCentreAgreeWithThoseByARightInverse) {
       const double lower = central.lower.data()[k], upper = central.upper.data()[k];
       EXPECT_LE(lower, value);
       EXPECT_GE(upper, value);
-      EXPECT_LE(upper - lower, 1e-9 * packing.force_unit());
+      EXPECT_LE(upper - lower, 1e-11 * packing.force_unit());
       EXPECT_LE(lower, dense.upper.data()[k]);
       EXPECT_GE(upper, dense.lower.data()[k]);
       const double sensitivity = dense.sensitivity.value.data()[k];
