@@ -145,8 +145,9 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments, Level
   std::vector<std::string> names = {"fast", "standard"};
   if (levels == Levels::kAll) {
     help +=
-        "; exact: each value computed in rational arithmetic and rounded once (about a minute for a hundred "
-        "disks); estimate: δR and δT of all contacts predicted instead of found, each with a 95 % interval, "
+        "; exact: each value computed without rounding and rounded once (some seconds for a hundred disks, "
+        "two minutes for 400); estimate: δR and δT of all contacts predicted instead of found, each with a "
+        "95 % interval, "
         "in "
         "seconds for 10000 disks (see --calibrate)";
     names.insert(names.end(), {"exact", "estimate"});

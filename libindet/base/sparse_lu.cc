@@ -53,11 +53,30 @@ std::optional<SparseLu::Dependent> SparseLu::factor(std::span<int> first, std::s
 }
 
 void SparseLu::solve(std::span<double> r) const {
-  klu_solve(impl_->symbolic, impl_->numeric, static_cast<int>(r.size()), 1, r.data(), &impl_->common);
+  const int size = impl_->symbolic->n;
+  klu_solve(impl_->symbolic, impl_->numeric, size, static_cast<int>(r.size()) / size, r.data(),
+            &impl_->common);
 }
 
 void SparseLu::solve_transposed(std::span<double> c) const {
-  klu_tsolve(impl_->symbolic, impl_->numeric, static_cast<int>(c.size()), 1, c.data(), &impl_->common);
+  const int size = impl_->symbolic->n;
+  klu_tsolve(impl_->symbolic, impl_->numeric, size, static_cast<int>(c.size()) / size, c.data(),
+             &impl_->common);
+}
+
+SparseLu::Blocks SparseLu::blocks() const {
+  const klu_symbolic& symbolic = *impl_->symbolic;
+  Blocks blocks;
+  blocks.count = symbolic.nblocks;
+  blocks.of_row.resize(static_cast<std::size_t>(symbolic.n));
+  blocks.of_column.resize(static_cast<std::size_t>(symbolic.n));
+  for (int block = 0; block < symbolic.nblocks; ++block) {
+    for (int k = symbolic.R[block]; k < symbolic.R[block + 1]; ++k) {
+      blocks.of_row[static_cast<std::size_t>(symbolic.P[k])] = block;
+      blocks.of_column[static_cast<std::size_t>(symbolic.Q[k])] = block;
+    }
+  }
+  return blocks;
 }
 
 }  // namespace indet

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace indet {
 
@@ -30,9 +31,17 @@ class SparseLu {
   /// LibraryError if KLU fails.
   std::optional<Dependent> factor(std::span<int> first, std::span<int> rows, std::span<double> entries);
 
-  /// r := A⁻¹ r and c := A⁻ᵀ c. Precondition: factor found the matrix regular.
+  /// r := A⁻¹ r and c := A⁻ᵀ c, of one vector or of several, one behind the other. Precondition: factor found
+  /// the matrix regular.
   void solve(std::span<double> r) const;
   void solve_transposed(std::span<double> c) const;
+
+  /// The block upper triangular form: no entry stands in a row of a later block than its column's.
+  struct Blocks {
+    int count = 0;
+    std::vector<int> of_row, of_column;
+  };
+  Blocks blocks() const;
 
  private:
   struct Impl;

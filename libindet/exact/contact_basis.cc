@@ -2,8 +2,28 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace indet::exact {
+namespace {
+
+mpz_class entry(const IntegerColumn& column, int row) {
+  const auto at = std::lower_bound(column.row.begin(), column.row.end(), row);
+  if (at == column.row.end() || *at != row) return 0;
+  return column.value[static_cast<std::size_t>(at - column.row.begin())];
+}
+
+/// The numbers times the smallest one that makes them whole, which is returned.
+mpz_class make_whole(const std::vector<mpq_class>& numbers, std::vector<mpz_class>& whole) {
+  mpz_class scale = 1;
+  for (const mpq_class& number : numbers) scale = lcm(scale, number.get_den());
+  for (const mpq_class& number : numbers) whole.push_back(number.get_num() * (scale / number.get_den()));
+  return scale;
+}
+
+}  // namespace
+
 std::unique_ptr<ContactBasis> ContactBasis::create(const ContactProblem& problem, std::vector<int> edges) {
   if (static_cast<int>(edges.size()) != problem.rank()) return nullptr;
   std::unique_ptr<ContactBasis> basis(new ContactBasis(problem));
@@ -37,50 +57,63 @@ std::unique_ptr<ContactBasis> ContactBasis::create(const ContactProblem& problem
     basis->columns_.push_back(problem.on_independent_rows(*column));
   std::vector<const IntegerColumn*> pointers;
   for (const IntegerColumn& column : basis->columns_) pointers.push_back(&column);
-  basis->solver_ = RationalSolver::create(std::move(pointers));
+  basis->solver_ = BasisSolver::create(std::move(pointers));
   if (!basis->solver_) return nullptr;
   std::vector<mpz_class> load;
   for (const int row : problem.independent_rows())
     load.push_back(problem.load()[static_cast<std::size_t>(row)]);
-  basis->x_ = basis->solver_->solve(load);
-  basis->balanced_ = basis->satisfies_all_rows();
+  basis->x_ = basis->solver_->solve(std::move(load));
   return basis;
 }
 
-bool ContactBasis::satisfies_all_rows() const {
-  if (problem_.rank() == problem_.rows()) return true;  // the solver has multiplied back
-  std::vector<mpz_class> rest;
-  for (const mpz_class& load : problem_.load()) rest.push_back(load * x_.denominator);
-  for (std::size_t v = 0; v < full_.size(); ++v) {
-    for (std::size_t k = 0; k < full_[v]->row.size(); ++k)
-      rest[static_cast<std::size_t>(full_[v]->row[k])] -= full_[v]->value[k] * x_.numerator[v];
+bool ContactBasis::is_balanced() const {
+  if (problem_.rank() == problem_.rows() || problem_.is_consistent()) return true;
+  const long shift = most_shift();
+  for (int row = 0; row < problem_.rows(); ++row) {
+    if (problem_.row_number()[static_cast<std::size_t>(row)] < 0 && missing_load(row, shift) != 0)
+      return false;
   }
-  return std::all_of(rest.begin(), rest.end(), [](const mpz_class& value) { return value == 0; });
+  return true;
+}
+
+long ContactBasis::most_shift() const {
+  long most = 0;
+  for (const IntegerColumn* column : full_) most = std::max(most, column->shift);
+  return most;
+}
+
+mpz_class ContactBasis::missing_load(int row, long most_shift) const {
+  const RationalVector& x = x_->exact();
+  mpz_class rest = problem_.load()[static_cast<std::size_t>(row)] * x.denominator;
+  rest <<= static_cast<mp_bitcnt_t>(most_shift);
+  for (std::size_t v = 0; v < full_.size(); ++v)
+    rest -= (entry(*full_[v], row) * x.numerator[v])
+            << static_cast<mp_bitcnt_t>(most_shift - full_[v]->shift);
+  return rest;
 }
 
 std::optional<std::vector<double>> ContactBasis::contradiction() const {
+  const long shift = most_shift();
   for (int row = 0; row < problem_.rows(); ++row) {
     if (problem_.row_number()[static_cast<std::size_t>(row)] >= 0) continue;
-    const auto entry = [row](const IntegerColumn& column) {
-      const auto at = std::lower_bound(column.row.begin(), column.row.end(), row);
-      if (at == column.row.end() || *at != row) return mpz_class(0);
-      return column.value[static_cast<std::size_t>(at - column.row.begin())];
-    };
-    mpz_class rest = problem_.load()[static_cast<std::size_t>(row)] * x_.denominator;
-    std::vector<mpz_class> right;
-    for (std::size_t v = 0; v < full_.size(); ++v) {
-      right.push_back(entry(*full_[v]));
-      rest -= right.back() * x_.numerator[v];
-    }
+    const mpz_class rest = missing_load(row, shift);
     if (rest == 0) continue;
-    const RationalVector combination = solver_->solve_transposed(right);
+    std::vector<mpz_class> right;
+    for (const IntegerColumn* column : full_)
+      right.push_back(entry(*column, row) << static_cast<mp_bitcnt_t>(shift - column->shift));
+    const Solution combination = solver_->solve_transposed(std::move(right));
     bool dependent = true;
     for (int e = 0; dependent && e < problem_.edges(); ++e) {
+      const IntegerColumn& column = problem_.edge(e);
       dependent = !problem_.has_edge(e) ||
-                  product(combination, e) == entry(problem_.edge(e)) * combination.denominator;
+                  combination.compare(problem_.on_independent_rows(column),
+                                      scaled(mpq_class(entry(column, row)), shift - column.shift)) == 0;
     }
+    if (!dependent) continue;
+    RationalVector y = combination.exact();
+    y.denominator <<= static_cast<mp_bitcnt_t>(shift);
     // With the row's own load b_i and that of the combination, y · b = −rest / denominator.
-    if (dependent) return rounded_motion(combination, sgn(rest), row);
+    return rounded_motion(y, sgn(rest), row);
   }
   return {};
 }
@@ -103,10 +136,6 @@ std::vector<double> ContactBasis::rounded_motion(const RationalVector& y, int si
   return motion;
 }
 
-mpq_class ContactBasis::value(const RationalVector& x, std::size_t v) const {
-  return scaled(x[v], full_[v]->shift);
-}
-
 std::size_t ContactBasis::first_variable(int edge) const {
   if (!problem_.is_slack(edge))
     return static_cast<std::size_t>(first_variable_[static_cast<std::size_t>(edge / 2)]);
@@ -115,45 +144,66 @@ std::size_t ContactBasis::first_variable(int edge) const {
   return variables_.size() - static_cast<std::size_t>(after);
 }
 
-mpq_class ContactBasis::strength_in(const RationalVector& x, int edge) const {
+LinearForm ContactBasis::strength_form(int edge) const {
   const std::size_t v = first_variable(edge);
-  if (variables_[v].kind == 2) return value(x, v);
-  const mpq_class over_mu = value(x, v + 1) / problem_.mu(edge / 2);
-  return (edge % 2 == 0 ? mpq_class(value(x, v) + over_mu) : mpq_class(value(x, v) - over_mu)) / 2;
+  const int first = static_cast<int>(v);
+  if (variables_[v].kind == 2) return {{{first}, {1}, 0}, 1};
+  // (R ± T/μ)/2
+  const mpq_class& mu = problem_.mu(edge / 2);
+  const mpz_class T = edge % 2 == 0 ? mu.get_den() : mpz_class(-mu.get_den());
+  return {{{first, first + 1}, {mu.get_num(), T}, 0}, 2 * mu.get_num()};
 }
 
-int ContactBasis::sign_of(const RationalVector& x, int edge) const {
-  const std::size_t v = first_variable(edge);
-  return variables_[v].kind == 2 ? sgn(x.numerator[v]) : sgn(strength_in(x, edge));
+LinearForm ContactBasis::force_form(int component) const {
+  const int contact = component / 2;
+  const int first = first_variable_[static_cast<std::size_t>(contact)];
+  if (first < 0) return {};
+  const Variable& variable = variables_[static_cast<std::size_t>(first)];
+  if (variable.kind != 2) return {{{first + component % 2}, {1}, 0}, 1};
+  if (component % 2 == 0) return {{{first}, {1}, 0}, 1};
+  const mpq_class& mu = problem_.mu(contact);
+  return {{{first}, {variable.edge % 2 == 0 ? mu.get_num() : mpz_class(-mu.get_num())}, 0}, mu.get_den()};
+}
+
+LinearForm ContactBasis::form_of(const Goal& goal) const {
+  std::map<int, mpq_class> shares;
+  const auto add = [&](const LinearForm& form, double factor) {
+    for (std::size_t k = 0; k < form.terms.row.size(); ++k)
+      shares[form.terms.row[k]] += mpq_class(factor) * form.terms.value[k] / form.divisor;
+  };
+  for (const auto& [component, coefficient] : goal.terms) add(force_form(component), coefficient);
+  for (const auto& [edge, weight] : goal.strengths) {
+    if (is_basic(edge)) add(strength_form(edge), weight);
+  }
+  LinearForm form;
+  std::vector<mpq_class> values;
+  for (auto& [variable, share] : shares) {
+    form.terms.row.push_back(variable);
+    values.push_back(std::move(share));
+  }
+  form.divisor = make_whole(values, form.terms.value) * problem_.load_scale();
+  return form;
 }
 
 int ContactBasis::first_negative() const {
   for (const int e : edges_) {
-    if (sign_of(x_, e) < 0) return e;
+    if (sign_of(*x_, e) < 0) return e;
   }
   return -1;
 }
 
-mpq_class ContactBasis::force_in(const RationalVector& x, int component) const {
-  const int contact = component / 2;
-  const int first = first_variable_[static_cast<std::size_t>(contact)];
-  if (first < 0) return 0;
-  const auto v = static_cast<std::size_t>(first);
-  if (variables_[v].kind != 2) return value(x, component % 2 == 0 ? v : v + 1);
-  mpq_class force = value(x, v);
-  if (component % 2 == 1) force *= variables_[v].edge % 2 == 0 ? problem_.mu(contact) : -problem_.mu(contact);
-  return force;
+mpq_class ContactBasis::force(int component) const {
+  return x_->value(force_form(component)) / problem_.load_scale();
 }
 
-mpq_class ContactBasis::force(int component) const { return force_in(x_, component) / problem_.load_scale(); }
-
-mpq_class ContactBasis::sum(const Goal& goal) const {
-  mpq_class sum = 0;
-  for (const auto& [component, coefficient] : goal.terms) sum += mpq_class(coefficient) * force(component);
-  for (const auto& [edge, weight] : goal.strengths) {
-    if (is_basic(edge)) sum += mpq_class(weight) * strength_in(x_, edge) / problem_.load_scale();
+std::vector<double> ContactBasis::nearest_forces() const {
+  std::vector<double> forces;
+  for (int component = 0; component < 2 * problem_.contacts(); ++component) {
+    LinearForm form = force_form(component);
+    form.divisor *= problem_.load_scale();
+    forces.push_back(x_->nearest(form));
   }
-  return sum;
+  return forces;
 }
 
 mpq_class ContactBasis::edge_cost(int edge, const Goal& goal) const {
@@ -192,50 +242,31 @@ mpq_class ContactBasis::cost(const Variable& variable, const Goal& goal) const {
 
 ContactBasis::Multipliers ContactBasis::multipliers(const Goal& goal) const {
   std::vector<mpq_class> costs;
-  Multipliers result;
-  for (std::size_t v = 0; v < variables_.size(); ++v) {
-    costs.push_back(scaled(cost(variables_[v], goal), full_[v]->shift));
-    result.scale = lcm(result.scale, costs.back().get_den());
-  }
+  for (const Variable& variable : variables_) costs.push_back(cost(variable, goal));
   std::vector<mpz_class> right;
-  for (const mpq_class& c : costs) right.push_back(c.get_num() * (result.scale / c.get_den()));
-  result.y = solver_->solve_transposed(right);
-  return result;
+  const mpz_class scale = make_whole(costs, right);
+  return {solver_->solve_transposed(std::move(right)), scale};
 }
 
-mpz_class ContactBasis::product(const RationalVector& y, int edge) const {
-  const IntegerColumn& column = problem_.edge(edge);
-  mpz_class sum = 0;
-  for (std::size_t k = 0; k < column.row.size(); ++k) {
-    const int row = problem_.row_number()[static_cast<std::size_t>(column.row[k])];
-    if (row >= 0) sum += column.value[k] * y.numerator[static_cast<std::size_t>(row)];
-  }
-  return sum;
-}
-
-int ContactBasis::sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers,
-                               const mpz_class& scale) const {
-  const mpz_class priced = product(multipliers.y, edge);
-  const mpq_class own = edge_cost(edge, goal);
-  return own == 0 ? -sgn(priced) : sgn(mpq_class(scaled(own, problem_.edge(edge).shift) * scale - priced));
+int ContactBasis::sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers) const {
+  return -multipliers.y.compare(problem_.on_independent_rows(problem_.edge(edge)),
+                                edge_cost(edge, goal) * multipliers.scale);
 }
 
 int ContactBasis::first_improving(const Goal& goal, const Multipliers& multipliers,
                                   const std::vector<bool>& face) const {
-  const mpz_class scale = multipliers.scale * multipliers.y.denominator;
   for (int e = 0; e < problem_.edges(); ++e) {
-    if (is_open(e, face) && sign_of_cost(e, goal, multipliers, scale) > 0) return e;
+    if (is_open(e, face) && sign_of_cost(e, goal, multipliers) > 0) return e;
   }
   return -1;
 }
 
 std::vector<bool> ContactBasis::optimal_face(const Goal& goal, const Multipliers& multipliers,
                                              const std::vector<bool>& face) const {
-  const mpz_class scale = multipliers.scale * multipliers.y.denominator;
   std::vector<bool> result(static_cast<std::size_t>(problem_.edges()), false);
   for (int e = 0; e < problem_.edges(); ++e) {
     result[static_cast<std::size_t>(e)] =
-        is_basic(e) || (is_open(e, face) && sign_of_cost(e, goal, multipliers, scale) == 0);
+        is_basic(e) || (is_open(e, face) && sign_of_cost(e, goal, multipliers) == 0);
   }
   return result;
 }
@@ -246,82 +277,6 @@ std::vector<int> ContactBasis::outside(const std::vector<bool>& face) const {
     if (is_open(e, face)) edges.push_back(e);
   }
   return edges;
-}
-
-bool ContactBasis::can_grow(int edge) const {
-  const RationalVector change = change_by(edge);
-  return std::all_of(edges_.begin(), edges_.end(),
-                     [&](int e) { return sign_of(change, e) <= 0 || sign_of(x_, e) > 0; });
-}
-
-RationalVector ContactBasis::change_by(int entering) const {
-  const IntegerColumn column = problem_.on_independent_rows(problem_.edge(entering));
-  std::vector<mpz_class> right(static_cast<std::size_t>(problem_.rank()), 0);
-  for (std::size_t k = 0; k < column.row.size(); ++k)
-    right[static_cast<std::size_t>(column.row[k])] = column.value[k];
-  return solver_->solve(right);
-}
-
-int ContactBasis::first_blocking(int entering) const {
-  const RationalVector change = change_by(entering);
-  for (const int e : edges_) {
-    if (sign_of(change, e) > 0) return e;
-  }
-  return -1;
-}
-
-ContactBasis::Ray ContactBasis::ray(int entering) const {
-  const RationalVector change = change_by(entering);
-  // The entering column was multiplied by 2^shift: its strength is that.
-  const mpq_class own = scaled(1, problem_.edge(entering).shift);
-  std::vector<mpq_class> forces;
-  mpq_class largest = 0;
-  for (int component = 0; component < 2 * problem_.contacts(); ++component) {
-    mpq_class force = -force_in(change, component);
-    if (!problem_.is_slack(entering) && component / 2 == entering / 2) {
-      mpq_class share = own;
-      if (component % 2 == 1)
-        share *= entering % 2 == 0 ? problem_.mu(entering / 2) : -problem_.mu(entering / 2);
-      force += share;
-    }
-    largest = std::max(largest, mpq_class(abs(force)));
-    forces.push_back(std::move(force));
-  }
-  Ray ray;
-  for (const mpq_class& force : forces) ray.forces.push_back(mpq_class(force / largest).get_d());
-  ray.grows.assign(static_cast<std::size_t>(problem_.edges()), false);
-  for (const int e : edges_) ray.grows[static_cast<std::size_t>(e)] = sign_of(change, e) < 0;
-  ray.grows[static_cast<std::size_t>(entering)] = true;
-  return ray;
-}
-
-RationalVector ContactBasis::row_of(int edge) const {
-  // μR ± T (a positive multiple of x±), or x itself.
-  const std::size_t v = first_variable(edge);
-  std::vector<mpq_class> functional(variables_.size(), 0);
-  if (variables_[v].kind == 2) {
-    functional[v] = 1;
-  } else {
-    functional[v] = scaled(problem_.mu(edge / 2), full_[v]->shift);
-    functional[v + 1] = scaled(mpq_class(edge % 2 == 0 ? 1 : -1), full_[v + 1]->shift);
-  }
-  mpz_class scale = 1;
-  for (const mpq_class& f : functional) scale = lcm(scale, f.get_den());
-  std::vector<mpz_class> right;
-  for (const mpq_class& f : functional) right.push_back(f.get_num() * (scale / f.get_den()));
-  return solver_->solve_transposed(right);
-}
-
-int ContactBasis::first_raising(int leaving, const std::vector<bool>& face) const {
-  const RationalVector row = row_of(leaving);
-  for (int e = 0; e < problem_.edges(); ++e) {
-    if (is_open(e, face) && product(row, e) < 0) return e;
-  }
-  return -1;
-}
-
-std::vector<double> ContactBasis::falling_motion(int leaving) const {
-  return rounded_motion(row_of(leaving), 1, -1);
 }
 
 std::shared_ptr<const ContactBasis> basis_at(const Packing& packing, const ContactProblem& problem,

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/exact/basis_solver.h"
 #include "libindet/exact/contact_problem.h"
-#include "libindet/exact/rational_solver.h"
 
 namespace indet::exact {
 
@@ -30,7 +30,8 @@ struct Goal {
 };
 
 /// A basis of the exact problem: rank() independent edges; all others have strength 0. The forces x_B = B⁻¹
-/// b, the multipliers y = B⁻ᵀ c_B and reduced costs c_e − y·A_e, as rational numbers.
+/// b, the multipliers y = B⁻ᵀ c_B and reduced costs c_e − y·A_e, without rounding: rational numbers are found
+/// only where enclosures do not decide what is asked (Solution).
 class ContactBasis {
  public:
   /// Nothing if the edges are not independent, or not rank() many. `problem` must outlive the basis.
@@ -40,7 +41,7 @@ class ContactBasis {
   bool is_basic(int edge) const { return basic_[static_cast<std::size_t>(edge)]; }
 
   /// Whether x_B satisfies all equations, those that are left out as dependent included.
-  bool is_balanced() const { return balanced_; }
+  bool is_balanced() const;
   /// If not: what contradicts every solution, if an equation that x_B violates is a combination of the
   /// independent ones with another right-hand side: a motion, one velocity a row, under which every edge
   /// rests and the load does work. Nothing if it is not such a combination. Rounded, largest entry 1.
@@ -49,14 +50,19 @@ class ContactBasis {
   int first_negative() const;
   /// R_α (component 2α) or T_α (2α + 1), in the scene's own units.
   mpq_class force(int component) const;
+  /// All R and T in turn, each rounded to the nearest double.
+  std::vector<double> nearest_forces() const;
   /// x of an edge, up to load_scale(), which has no part in its sign.
-  int sign_of_strength(int edge) const { return is_basic(edge) ? sign_of(x_, edge) : 0; }
-  /// The sum of a goal, without its sign.
-  mpq_class sum(const Goal& goal) const;
+  int sign_of_strength(int edge) const { return is_basic(edge) ? sign_of(*x_, edge) : 0; }
+  /// The sum of a goal, without its sign; and a number that stands for it beside doubles (Solution).
+  mpq_class sum(const Goal& goal) const { return x_->value(form_of(goal)); }
+  mpq_class stand_in(const Goal& goal) const { return x_->stand_in(form_of(goal)); }
+  /// Whether the forces were needed as rational numbers so far.
+  bool is_rational() const { return x_->is_rational(); }
 
   /// y, one an independent row, up to a positive factor that is returned beside it.
   struct Multipliers {
-    RationalVector y;
+    Solution y;
     mpz_class scale = 1;  ///< true multipliers are y / scale
   };
   Multipliers multipliers(const Goal& goal) const;
@@ -78,6 +84,8 @@ class ContactBasis {
   /// Entering edge e: the basic edge of smallest number whose strength falls as x_e grows, or −1: then
   /// x_e = 1, x_B = −B⁻¹ A_e is a recession ray.
   int first_blocking(int entering) const;
+  /// The same of those whose strength vanishes first. Precondition: none is negative.
+  int first_vanishing(int entering) const;
   /// That ray: R and T of each contact, and the strength of each edge, up to one positive factor (forces:
   /// largest entry 1). Rounded; what is 0 exactly is 0.
   struct Ray {
@@ -105,26 +113,26 @@ class ContactBasis {
   }
   mpq_class cost(const Variable& variable, const Goal& goal) const;
   mpq_class edge_cost(int edge, const Goal& goal) const;
-  /// Sign of the reduced cost of an edge that is not basic; `scale`: of the multipliers, over which y is.
-  int sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers, const mpz_class& scale) const;
+  /// Sign of the reduced cost of an edge that is not basic.
+  int sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers) const;
   /// How x_B falls as the strength of this edge grows.
-  RationalVector change_by(int entering) const;
-  /// Strength of this edge as a functional of the basic variables, solved with B'ᵀ.
-  RationalVector row_of(int edge) const;
-  /// R or T in a solution of B' x' = b'.
-  mpq_class force_in(const RationalVector& x, int component) const;
+  Solution change_by(int entering) const;
+  /// Strength of this edge as a functional of the basic variables, solved with Bᵀ, up to a positive factor.
+  Solution row_of(int edge) const;
+  /// As functionals of the variables: R or T; the strength of a basic edge; a goal's sum, without its sign.
+  /// Of x_, the load's scale is undone.
+  LinearForm force_form(int component) const;
+  LinearForm strength_form(int edge) const;
+  LinearForm form_of(const Goal& goal) const;
+  /// Sign of the strength of a basic edge in a solution.
+  int sign_of(const Solution& x, int edge) const { return x.sign(strength_form(edge).terms); }
   /// A motion of the independent rows, times a sign, on all rows; in addition that of one more.
   std::vector<double> rounded_motion(const RationalVector& y, int sign, int more_row) const;
-  /// Value of variable v of a solution of B' x' = b', with the shift undone.
-  mpq_class value(const RationalVector& x, std::size_t v) const;
-  /// Strength of a basic edge in a solution of B' x' = b', and its sign.
-  mpq_class strength_in(const RationalVector& x, int edge) const;
-  int sign_of(const RationalVector& x, int edge) const;
   /// The variable of a basic edge, or of R where both of its contact's edges are basic.
   std::size_t first_variable(int edge) const;
-  /// y · A_e · 2^shift of the column, times the denominator of y.
-  mpz_class product(const RationalVector& y, int edge) const;
-  bool satisfies_all_rows() const;
+  /// What a row misses of its load, times a positive number. Precondition: the most shift of all variables.
+  mpz_class missing_load(int row, long most_shift) const;
+  long most_shift() const;
 
   const ContactProblem& problem_;
   std::vector<int> edges_;
@@ -133,9 +141,8 @@ class ContactBasis {
   std::vector<int> first_variable_;  ///< of each contact, −1 if it has none
   std::vector<const IntegerColumn*> full_;
   std::vector<IntegerColumn> columns_;  ///< on the independent rows
-  std::unique_ptr<RationalSolver> solver_;
-  RationalVector x_;
-  bool balanced_ = false;
+  std::unique_ptr<BasisSolver> solver_;
+  std::optional<Solution> x_;  ///< times load_scale()
 };
 
 /// The basis next to a state in double precision (2M forces): its strongest edges, and of those named as zero

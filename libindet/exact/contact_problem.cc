@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "libindet/exact/certificate.h"
 #include "libindet/packing/force_bounds.h"
 
 namespace indet::exact {
@@ -216,16 +217,6 @@ std::vector<double> edge_strengths(const Packing& packing, std::span<const doubl
   return strengths;
 }
 
-mpq_class scaled(const mpq_class& value, long power) {
-  mpq_class result;
-  if (power >= 0) {
-    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(power));
-  } else {
-    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-power));
-  }
-  return result;
-}
-
 ContactProblem::ContactProblem(const Packing& packing, const Loads* change) {
   RowNumbers number(packing);
   const std::vector<double> divisors = torque_divisors(packing, change);
@@ -365,6 +356,13 @@ void ContactProblem::find_independent_rows() {
   row_number_.assign(static_cast<std::size_t>(rows()), -1);
   for (std::size_t k = 0; k < independent_.size(); ++k)
     row_number_[static_cast<std::size_t>(independent_[k])] = static_cast<int>(k);
+  consistency_ = std::make_shared<Consistency>();
+}
+
+bool ContactProblem::is_consistent() const {
+  std::call_once(consistency_->once,
+                 [this] { consistency_->is_proven = proves_structure(*this, {}, rank()); });
+  return consistency_->is_proven;
 }
 
 const IntegerColumn& ContactProblem::edge(int edge) const {

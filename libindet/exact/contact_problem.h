@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -79,6 +81,9 @@ class ContactProblem {
   /// if none.
   const std::vector<int>& independent_rows() const { return independent_; }
   const std::vector<int>& row_number() const { return row_number_; }
+  /// Whether all other rows follow from these, the load included, so that what satisfies these satisfies all.
+  /// Proven when first asked for (proves_structure); false where it is not proven.
+  bool is_consistent() const;
 
   const mpq_class& mu(int contact) const { return contacts_[static_cast<std::size_t>(contact)].mu; }
   /// Columns of R and T of one contact, and of an edge. Precondition of mu(): no slack's.
@@ -121,6 +126,11 @@ class ContactProblem {
   mpz_class load_scale_ = 1;
   std::vector<int> independent_;
   std::vector<int> row_number_;
+  struct Consistency {
+    std::once_flag once;
+    bool is_proven = false;
+  };
+  std::shared_ptr<Consistency> consistency_;  ///< copies have the same
 };
 
 /// Strengths of all edges, in double precision, at forces R and T of each contact in turn:
@@ -129,8 +139,5 @@ class ContactProblem {
 std::vector<double> edge_strengths(const Packing& packing, std::span<const double> forces);
 /// The same along a direction of growth, in which bounds have the value 0.
 std::vector<double> edge_growths(const Packing& packing, std::span<const double> forces);
-
-/// value · 2^power.
-mpq_class scaled(const mpq_class& value, long power);
 
 }  // namespace indet::exact

@@ -5,17 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "libindet/exact/integer_column.h"
 #include "libindet/exact/prime_field.h"
 
 namespace indet::exact {
-
-/// A sparse column with integer entries: value[i] stands in row row[i], rows ascending. The true entry is
-/// value · 2^−shift.
-struct IntegerColumn {
-  std::vector<int> row;
-  std::vector<mpz_class> value;
-  long shift = 0;
-};
 
 /// P B Q = L U of a sparse matrix modulo a prime, pivots chosen for few non-zeros (Markowitz, Management Sci.
 /// 3, 255 (1957)). The rank modulo p never exceeds the rank over the rationals.

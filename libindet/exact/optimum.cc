@@ -1,12 +1,10 @@
 #include "libindet/exact/optimum.h"
 
-#include <cmath>
-#include <limits>
-
 namespace indet::exact {
 namespace {
 
-/// Criss-cross steps; `goal` absent: any feasible basis will do.
+/// Criss-cross steps up to a feasible basis, and primal ones from there; `goal` absent: any feasible basis
+/// will do.
 Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> basis,
              const std::optional<Goal>& goal, int pivot_limit, const std::vector<bool>& face) {
   Optimum result;
@@ -21,11 +19,13 @@ Optimum walk(const ContactProblem& problem, std::shared_ptr<const ContactBasis> 
     const int improving = goal ? basis->first_improving(*goal, *result.multipliers, face) : -1;
     if (infeasible < 0 && improving < 0) {
       result.verdict = Verdict::kOptimal;
-      if (goal) result.value = basis->sum(*goal);
+      if (goal) result.value = basis->stand_in(*goal);
       return result;
     }
     const bool leave = improving < 0 || (infeasible >= 0 && infeasible < improving);
-    const int partner = leave ? basis->first_raising(infeasible, face) : basis->first_blocking(improving);
+    const int partner = leave            ? basis->first_raising(infeasible, face)
+                        : infeasible < 0 ? basis->first_vanishing(improving)
+                                         : basis->first_blocking(improving);
     if (partner < 0) {
       result.verdict = leave ? Verdict::kEmpty : Verdict::kUnbounded;
       result.edge = leave ? infeasible : improving;
@@ -52,35 +52,6 @@ Optimum maximise(const ContactProblem& problem, std::shared_ptr<const ContactBas
 Optimum find_solution(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,
                       int pivot_limit) {
   return walk(problem, std::move(start), {}, pivot_limit, {});
-}
-
-Enclosure enclose(const mpq_class& value) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double truncated = value.get_d();  // towards zero
-  if (std::isinf(truncated)) {
-    const double largest = std::numeric_limits<double>::max();
-    return value > 0 ? Enclosure{largest, kInfinity} : Enclosure{-kInfinity, -largest};
-  }
-  if (mpq_class(truncated) == value) return {truncated, truncated};
-  if (value > 0) return {truncated, std::nextafter(truncated, kInfinity)};
-  return {std::nextafter(truncated, -kInfinity), truncated};
-}
-
-bool contains(const Enclosure& bounds, const mpq_class& value) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto [lower, upper] = bounds;
-  const bool above = lower == -kInfinity || (std::isfinite(lower) && mpq_class(lower) <= value);
-  const bool below = upper == kInfinity || (std::isfinite(upper) && value <= mpq_class(upper));
-  return above && below;
-}
-
-double nearest(const mpq_class& value) {
-  const Enclosure enclosure = enclose(value);
-  if (std::isinf(enclosure.lower) || std::isinf(enclosure.upper))
-    return value > 0 ? enclosure.lower : enclosure.upper;
-  const bool low =
-      mpq_class(value - mpq_class(enclosure.lower)) <= mpq_class(mpq_class(enclosure.upper) - value);
-  return low ? enclosure.lower : enclosure.upper;
 }
 
 }  // namespace indet::exact

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "libindet/exact/contact_basis.h"
+#include "libindet/exact/enclosure.h"
 
 namespace indet::exact {
 
@@ -20,13 +21,16 @@ enum class Verdict : std::uint8_t {
 
 struct Optimum {
   Verdict verdict = Verdict::kUndecided;
-  mpq_class value;  ///< of the goal's sum itself (not times the sign), if optimal
+  mpq_class value;  ///< if optimal: stands for the goal's sum itself, not times the sign (stand_in())
   int pivots = 0;   ///< 0: the start was it
   /// Of `basis`: if unbounded, the edge with which the goal grows (ContactBasis::ray); if empty, the one that
   /// nothing can raise (ContactBasis::falling_motion).
   int edge = -1;
   std::shared_ptr<const ContactBasis> basis;
   std::shared_ptr<const ContactBasis::Multipliers> multipliers;  ///< of `basis`, if optimal with a goal
+
+  /// Whether of these forces and multipliers some were needed as rational numbers so far.
+  bool is_rational() const { return basis->is_rational() || (multipliers && multipliers->y.is_rational()); }
 };
 
 /// Maximises a goal from a basis, by the criss-cross method with least indices (Terlaky,
@@ -40,16 +44,5 @@ Optimum maximise(const ContactProblem& problem, std::shared_ptr<const ContactBas
 /// A feasible basis (kOptimal), or the proof that there is none (kEmpty, kInconsistent).
 Optimum find_solution(const ContactProblem& problem, std::shared_ptr<const ContactBasis> start,
                       int pivot_limit);
-
-/// The two neighbouring doubles that enclose a rational number; equal if it is one.
-struct Enclosure {
-  double lower = 0;
-  double upper = 0;
-};
-Enclosure enclose(const mpq_class& value);
-/// Whether bounds, which may be infinite, hold; NaN holds nothing.
-bool contains(const Enclosure& bounds, const mpq_class& value);
-/// The nearer of the two; the finite one where the number is too large for a double.
-double nearest(const mpq_class& value);
 
 }  // namespace indet::exact

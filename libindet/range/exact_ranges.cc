@@ -36,11 +36,9 @@ std::span<const double> view_of(const Eigen::VectorXd& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
 
-Eigen::VectorXd rounded_state(const ContactBasis& basis, int contacts) {
-  Eigen::VectorXd state(2 * contacts);
-  for (int component = 0; component < state.size(); ++component)
-    state[component] = exact::nearest(basis.force(component));
-  return state;
+Eigen::VectorXd rounded_state(const ContactBasis& basis) {
+  const std::vector<double> forces = basis.nearest_forces();
+  return Eigen::Map<const Eigen::VectorXd>(forces.data(), std::ssize(forces));
 }
 
 std::int32_t append(Rows<double>& rows, const Eigen::VectorXd& row) {
@@ -328,6 +326,7 @@ class ExactFinder {
     for (const int column : {minimum, minimum + 1}) {
       if (extrema_.claim(contact, column) != Outcome::kOptimal) return false;
     }
+    if (enclosures_.upper(contact, minimum) < enclosures_.lower(contact, minimum + 1)) return false;
     const int component = 2 * contact + (minimum == kMinT ? 1 : 0);
     const auto at = [&](int column) {
       return bases_[static_cast<std::size_t>(extrema_.vertex(contact, column))]->force(component);
@@ -339,7 +338,7 @@ class ExactFinder {
     const auto [entry, is_new] = numbers_.emplace(basis->edges(), static_cast<int>(states_.size()));
     if (is_new) {
       bases_.push_back(basis);
-      states_.push_back(rounded_state(*basis, packing_.contact_count()));
+      states_.push_back(rounded_state(*basis));
     }
     return entry->second;
   }
@@ -392,7 +391,7 @@ class ExactFinder {
     r.value(k, end) = exact::nearest(optimum.value);
     r.lower(k, end) = bounds.lower;
     r.upper(k, end) = bounds.upper;
-    r.vertex(k, end) = append(r.states, rounded_state(*optimum.basis, packing_.contact_count()));
+    r.vertex(k, end) = append(r.states, rounded_state(*optimum.basis));
   }
 
   void report(std::int64_t settled) {

@@ -46,6 +46,7 @@ struct Answer {
   ObjectiveId id;
   Optimum optimum;
   bool as_stored = false;  ///< no pivot was needed
+  bool rational = false;   ///< enclosures did not decide
 };
 
 class Check {
@@ -189,8 +190,9 @@ class Check {
     }
     std::vector<Answer> answers;
     for (const ObjectiveId& id : task.objectives) {
-      Answer answer{id, {}, false};
+      Answer answer{id, {}, false, false};
       if (start) answer.optimum = exact::maximise(problem_, start, id.goal(), options_.pivot_limit);
+      answer.rational = answer.optimum.basis && answer.optimum.is_rational();
       answer.as_stored = answer.optimum.pivots == 0 && task.starts_from_stored();
       answers.push_back(std::move(answer));
     }
@@ -232,10 +234,8 @@ class Check {
   int number_of(const Optimum& optimum) {
     const auto [entry, is_new] = numbers_.emplace(optimum.basis->edges(), static_cast<int>(rows_.size()));
     if (is_new) {
-      Eigen::VectorXd state(2 * packing_.contact_count());
-      for (int component = 0; component < state.size(); ++component)
-        state[component] = exact::nearest(optimum.basis->force(component));
-      rows_.push_back(std::move(state));
+      const std::vector<double> state = optimum.basis->nearest_forces();
+      rows_.push_back(Eigen::Map<const Eigen::VectorXd>(state.data(), std::ssize(state)));
       std::vector<std::int32_t> zero;
       for (int e = 0; e < problem_.edges(); ++e) {
         if (problem_.has_edge(e) && !optimum.basis->is_basic(e)) zero.push_back(e);
@@ -252,6 +252,7 @@ class Check {
     const bool certified = is_certified(outcome);
     const std::string place = fmt::format("contact {} {}", i, to_string(static_cast<Column>(column)));
     report_.pivots += answer.optimum.pivots;
+    report_.rational += answer.rational ? 1 : 0;
     Proof& proof = report_.proof(i, column);
     proof = Proof::kUndecided;
     switch (answer.optimum.verdict) {

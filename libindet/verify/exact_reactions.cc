@@ -113,6 +113,7 @@ class ReactionProver {
     const bool certified = is_certified(r_.outcome(k, end));
     Proof proof = Proof::kUndecided;
     result_.pivots += optimum.pivots;
+    result_.rational += optimum.basis && optimum.is_rational() ? 1 : 0;
     if (optimum.verdict == Verdict::kOptimal) {
       proof = std::isinf(stored) ? Proof::kRefuted : agreed;
       take(k, end, optimum);
@@ -163,12 +164,10 @@ class ReactionProver {
     result_.value(k, end) = exact::nearest(optimum.value);
     result_.lower(k, end) = value.lower;
     result_.upper(k, end) = value.upper;
-    Eigen::VectorXd state(2 * packing_.contact_count());
-    for (int component = 0; component < state.size(); ++component)
-      state[component] = exact::nearest(optimum.basis->force(component));
+    const std::vector<double> state = optimum.basis->nearest_forces();
     result_.vertex(k, end) = static_cast<std::int32_t>(result_.states.rows());
     result_.states.conservativeResize(result_.states.rows() + 1, Eigen::NoChange);
-    result_.states.bottomRows(1) = state.transpose();
+    result_.states.bottomRows(1) = Eigen::Map<const Eigen::RowVectorXd>(state.data(), std::ssize(state));
   }
 
   const Packing& packing_;

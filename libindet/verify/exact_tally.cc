@@ -23,6 +23,7 @@ void ExactTally::add(const ExactTally& other) {
   refuted += other.refuted;
   undecided += other.undecided;
   pivots += other.pivots;
+  rational += other.rational;
   contradictions += other.contradictions;
   worst_error = std::max(worst_error, other.worst_error);
   worst_certified_error = std::max(worst_certified_error, other.worst_certified_error);

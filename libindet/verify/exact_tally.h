@@ -19,6 +19,7 @@ enum class Proof : std::uint8_t {
 struct ExactTally {
   std::int64_t proven = 0, repaired = 0, refuted = 0, undecided = 0;
   std::int64_t pivots = 0;
+  std::int64_t rational = 0;        ///< objectives at whose basis enclosures alone did not decide
   std::int64_t contradictions = 0;  ///< certified numbers whose enclosure does not contain the exact value
   double worst_error = 0;  ///< |stored − exact| over all finite values that agree in kind (mg; torques mg r)
   double worst_certified_error = 0;   ///< the same, over those stored as `optimal`

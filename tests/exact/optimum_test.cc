@@ -48,9 +48,9 @@ TEST(ContactBasis, GivesTheForcesOfTheGroove) {
   EXPECT_EQ(basis->first_negative(), -1);
   const Optimum top = maximise(problem, any_basis(problem), {0, 1}, 50);
   EXPECT_EQ(top.verdict, Verdict::kOptimal);
-  EXPECT_EQ(top.value, largest);
+  EXPECT_EQ(top.basis->sum({0, 1}), largest);
   const Optimum bottom = maximise(problem, any_basis(problem), {0, -1}, 50);
-  EXPECT_EQ(bottom.value, mpq_class(1 / (2 * (ny + mu * nx))));
+  EXPECT_EQ(bottom.basis->sum({0, -1}), mpq_class(1 / (2 * (ny + mu * nx))));
 }
 
 /// From any basis the criss-cross walk reaches what the textbook tableau finds.
@@ -78,7 +78,10 @@ TEST(Optimum, AgreesWithTheTableauOnRandomScenes) {
         unbounded += exact ? 0 : 1;
         ASSERT_EQ(found.verdict, exact ? Verdict::kOptimal : Verdict::kUnbounded);
         if (exact) {
-          ASSERT_EQ(found.value, *exact);
+          ASSERT_EQ(found.basis->sum({component, sign}), *exact);
+          ASSERT_EQ(enclose(found.value).lower, enclose(*exact).lower);
+          ASSERT_EQ(enclose(found.value).upper, enclose(*exact).upper);
+          ASSERT_EQ(nearest(found.value), nearest(*exact));
         }
       }
     }

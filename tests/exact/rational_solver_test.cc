@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "libindet/base/random.h"
-#include "libindet/exact/optimum.h"
+#include "libindet/exact/enclosure.h"
+#include "tests/exact/random_matrix.h"
 
 namespace indet::exact {
 namespace {
@@ -30,27 +30,6 @@ TEST(PrimeField, AgreesWithGmp) {
   EXPECT_EQ(field.reduce(-1), field.prime() - 1);
 }
 
-/// A sparse matrix of small integers, by columns.
-std::vector<IntegerColumn> random_matrix(int size, int entries, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<IntegerColumn> columns(static_cast<std::size_t>(size));
-  for (int j = 0; j < size; ++j) {
-    IntegerColumn& column = columns[static_cast<std::size_t>(j)];
-    for (int i = 0; i < size; ++i) {
-      if (i != j && random.uniform(0, size) > entries) continue;
-      column.row.push_back(i);
-      column.value.emplace_back(static_cast<long>(random.uniform(-1e15, 1e15)));
-    }
-  }
-  return columns;
-}
-
-std::vector<const IntegerColumn*> pointers(const std::vector<IntegerColumn>& columns) {
-  std::vector<const IntegerColumn*> result;
-  for (const IntegerColumn& column : columns) result.push_back(&column);
-  return result;
-}
-
 TEST(RationalSolver, InvertsHilbertsMatrix) {
   // 2520 H, 1 / (i + j + 1): its inverse is known to be integer; H⁻¹ e_0 for n = 5 is (25, −300, 1050, −1400,
   // 630).
@@ -61,7 +40,7 @@ TEST(RationalSolver, InvertsHilbertsMatrix) {
       columns[static_cast<std::size_t>(j)].value.emplace_back(2520 / (i + j + 1));
     }
   }
-  const auto solver = RationalSolver::create(pointers(columns));
+  const auto solver = RationalSolver::create(pointers_to(columns));
   ASSERT_TRUE(solver);
   const RationalVector x = solver->solve({2520, 0, 0, 0, 0});
   const long expected[] = {25, -300, 1050, -1400, 630};
@@ -71,7 +50,7 @@ TEST(RationalSolver, InvertsHilbertsMatrix) {
 TEST(RationalSolver, MultipliesBack) {
   for (const int size : {1, 2, 7, 40}) {
     const auto columns = random_matrix(size, 4, static_cast<std::uint64_t>(size));
-    const auto solver = RationalSolver::create(pointers(columns));
+    const auto solver = RationalSolver::create(pointers_to(columns));
     ASSERT_TRUE(solver);
     std::vector<mpz_class> right;
     for (int i = 0; i < size; ++i) right.emplace_back(3 * i * i - 50);
@@ -94,9 +73,9 @@ TEST(RationalSolver, MultipliesBack) {
 TEST(RationalSolver, RefusesASingularMatrix) {
   auto columns = random_matrix(6, 3, 1);
   columns[4] = columns[2];
-  EXPECT_FALSE(RationalSolver::create(pointers(columns)));
+  EXPECT_FALSE(RationalSolver::create(pointers_to(columns)));
   const PrimeField field(large_prime(0));
-  EXPECT_EQ(ModularLu(field, 6, pointers(columns)).rank(), 5);
+  EXPECT_EQ(ModularLu(field, 6, pointers_to(columns)).rank(), 5);
 }
 
 TEST(Enclosure, IsTwoNeighbours) {
