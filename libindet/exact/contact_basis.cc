@@ -1,6 +1,7 @@
 #include "libindet/exact/contact_basis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -246,6 +247,18 @@ ContactBasis::Multipliers ContactBasis::multipliers(const Goal& goal) const {
   std::vector<mpz_class> right;
   const mpz_class scale = make_whole(costs, right);
   return {solver_->solve_transposed(std::move(right)), scale};
+}
+
+std::vector<double> ContactBasis::motion(const Multipliers& multipliers) const {
+  std::vector<double> motion(static_cast<std::size_t>(problem_.rows()), 0);
+  double largest = 0;
+  for (std::size_t row = 0; row < motion.size(); ++row) {
+    const int number = problem_.row_number()[row];
+    if (number >= 0) motion[row] = multipliers.y.nearest({{{number}, {1}, 0}, 1});
+    largest = std::max(largest, std::abs(motion[row]));
+  }
+  for (double& velocity : motion) velocity /= largest;
+  return motion;
 }
 
 int ContactBasis::sign_of_cost(int edge, const Goal& goal, const Multipliers& multipliers) const {

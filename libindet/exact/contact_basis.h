@@ -67,9 +67,7 @@ class ContactBasis {
   };
   Multipliers multipliers(const Goal& goal) const;
   /// y as a motion, one velocity a row. Rounded, largest entry 1.
-  std::vector<double> motion(const Multipliers& multipliers) const {
-    return rounded_motion(multipliers.y, 1, -1);
-  }
+  std::vector<double> motion(const Multipliers& multipliers) const;
   /// The edge of smallest number with a positive reduced cost, or −1. Here and below, of those of a face:
   /// that is, where `face` is not empty, of edges that are set in it; the others are held at 0.
   int first_improving(const Goal& goal, const Multipliers& multipliers, const std::vector<bool>& face) const;

@@ -1,6 +1,5 @@
 #include "libindet/limit/exact_basis.h"
 
-#include <utility>
 
 #include "libindet/exact/optimum.h"
 
@@ -32,10 +31,8 @@ std::shared_ptr<const exact::ContactBasis> basis_of(const exact::ContactProblem&
 }
 
 SceneForces forces_of(const exact::ContactBasis& basis, int contacts) {
-  Eigen::VectorXd forces(2 * contacts);
-  for (int component = 0; component < forces.size(); ++component)
-    forces[component] = exact::nearest(basis.force(component));
-  return SceneForces(std::move(forces));
+  const std::vector<double> forces = basis.nearest_forces();
+  return SceneForces(Eigen::Map<const Eigen::VectorXd>(forces.data(), 2 * contacts));
 }
 
 ClosedContacts closed_contacts(const exact::ContactBasis& basis, int contacts) {
