@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -24,6 +25,7 @@
 #include "libindet/base/error.h"
 #include "libindet/drawing/mechanism_picture.h"
 #include "libindet/drawing/packing_picture.h"
+#include "libindet/drawing/yield_curve.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/limits_file.h"
 #include "libindet/io/ovito_files.h"
@@ -236,6 +238,19 @@ void export_mechanism(const std::filesystem::path& output, const ExportOptions& 
                  caption(options, packing, "mechanism at " + chosen.description()));
 }
 
+void export_yield_curve(const std::filesystem::path& output, const ExportOptions& options,
+                        const Hdf5File& file, const Packing& packing) {
+  std::vector<Limit> limits;
+  if (has_limits(file)) limits = read_limits(file);
+  std::erase_if(limits, [](const Limit& limit) { return std::isnan(limit.map_angle); });
+  if (limits.empty())
+    throw InputError(
+        fmt::format("{0}: --style yield-curve needs a map of two loads; make it first: indet limit {0} "
+                    "--load … --load … --map 36",
+                    options.file));
+  draw_yield_curve(output, limits, caption(options, packing, "multiples of two loads at which it yields"));
+}
+
 int run(ExportOptions options, const Context& context) {
   const Hdf5File file = open_packing(options.file);
   const Packing packing = read_packing(file);
@@ -262,6 +277,8 @@ int run(ExportOptions options, const Context& context) {
   claim_outputs(output, format, replacement_rule({options.file}, options.overwrite, context));
   if (!is_picture) {
     write_numbers(output, format, packing, state, ranges ? &*ranges : nullptr, context);
+  } else if (options.style == "yield-curve") {
+    export_yield_curve(output, options, file, packing);
   } else if (options.style == "mechanism") {
     export_mechanism(output, options, file, packing, ranges);
   } else if (options.style == "delta-R") {
@@ -314,8 +331,8 @@ Command add_export(CLI::App& root) {
           "What a picture shows. forces: the contact forces of the state; delta-R: the range of each normal "
           "force as a colour; mechanism: how the disks move at the limit of --limit, or, with force ranges, "
           "how "
-          "a packing falls that cannot stand")
-      ->check(CLI::IsMember({"forces", "delta-R", "mechanism"}))
+          "a packing falls that cannot stand; yield-curve: the map of two loads that limit --map made")
+      ->check(CLI::IsMember({"forces", "delta-R", "mechanism", "yield-curve"}))
       ->capture_default_str();
   const auto check_limit = [](const std::string& text) -> std::string {
     return parse_limit(text) ? "" : "must be largest or smallest, or K:largest, K:smallest of limit K";

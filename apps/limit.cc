@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -22,6 +23,7 @@
 #include "apps/say.h"
 #include "libindet/base/error.h"
 #include "libindet/io/limits_file.h"
+#include "libindet/io/table.h"
 #include "libindet/lp/glpk_problem.h"
 
 namespace indet::app {
@@ -34,6 +36,7 @@ struct LimitCommand {
   bool tilt = false;
   std::optional<double> ignore_below;  ///< degrees
   std::vector<std::string> loads;
+  int map = 0;
   bool friction = false;
   std::string friction_of = "all";
 };
@@ -57,9 +60,25 @@ std::vector<bool> scaled_contacts(const LimitCommand& options, const Packing& pa
   return scaled;
 }
 
+/// Direction k of the map of two loads. Multiples of 90° are exact.
+Limit find_on_map(const Packing& packing, const LimitCommand& options, const std::vector<Loads>& loads,
+                  int k) {
+  const double angle = 2 * std::numbers::pi * k / options.map;
+  const bool is_second = 4 * k == options.map;
+  const double first = is_second ? 0 : std::cos(angle);
+  const double second = k == 0 ? 0 : is_second ? 1 : std::sin(angle);
+  const std::string name =
+      fmt::format("({:.6g}) {} + ({:.6g}) {}", first, options.loads[0], second, options.loads[1]);
+  Limit limit = find_load(packing, name, combined(first, loads[0], second, loads[1]));
+  limit.map_angle = angle;
+  return limit;
+}
+
 int run(const LimitCommand& options, const Context& context) {
   if (!options.tilt && options.loads.empty() && !options.friction)
     throw UsageError("limit needs to know what to vary: --tilt, --load or --friction");
+  if (options.map > 0 && options.loads.size() != 2)
+    throw UsageError("--map needs two --load, whose plane it maps");
   if (options.friction_of != "all" && !options.friction)
     throw UsageError("--friction-of has no effect without --friction");
   if (options.ignore_below && !options.tilt)
@@ -79,8 +98,9 @@ int run(const LimitCommand& options, const Context& context) {
   provenance.libraries["GLPK"] = glpk_version();
   std::vector<Limit> limits;
   const auto progress = context.progress();
-  const auto total =
-      static_cast<std::int64_t>(changes.size() + (options.tilt ? 1 : 0) + (options.friction ? 1 : 0));
+  const int directions = options.map / 2;  // each has two ends
+  const std::int64_t total = (directions > 0 ? directions : std::ssize(changes)) + (options.tilt ? 1 : 0) +
+                             (options.friction ? 1 : 0);
   const auto add = [&](auto find) {
     if (progress && !progress({"limits", static_cast<std::int64_t>(limits.size()), total, ""}))
       throw Interrupted();
@@ -91,7 +111,8 @@ int run(const LimitCommand& options, const Context& context) {
   };
   if (options.tilt)
     add([&] { return find_tilt(packing, options.ignore_below.value_or(0) * std::numbers::pi / 180); });
-  for (std::size_t k = 0; k < changes.size(); ++k)
+  for (int k = 0; k < directions; ++k) add([&] { return find_on_map(packing, options, changes, k); });
+  for (std::size_t k = 0; directions == 0 && k < changes.size(); ++k)
     add([&] { return find_load(packing, options.loads[k], changes[k]); });
   if (options.friction) {
     const std::string name =
@@ -146,6 +167,17 @@ Command add_limit(CLI::App& root) {
                    "scene. May be given several times, for a limit each")
       ->type_name("LOAD")
       ->allow_extra_args(false);
+  const auto check_map = [](const std::string& text) -> std::string {
+    std::int64_t number = 0;
+    const bool fits = parse_number(text, &number) && number >= 4 && number <= 3600 && number % 2 == 0;
+    return fits ? "" : "must be an even number from 4 to 3600";
+  };
+  command
+      ->add_option("--map", options->map,
+                   "With two --load: the largest multiples of (cos φ) times the first and (sin φ) times the "
+                   "second, in K directions φ; export --style yield-curve draws them")
+      ->type_name("K")
+      ->check(CLI::Validator(check_map, "K"));
   command->add_flag(
       "--friction", options->friction,
       "With how little friction it still stands: the least factor of all coefficients of friction");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "apps/ranges_json.h"
 #include "apps/say.h"
@@ -129,6 +130,26 @@ void print_limit(const Packing& whole, const Limit& limit) {
     say("  something acts that does not turn with gravity: further on it may stand again\n");
 }
 
+/// The largest multiple in each direction of the plane of two loads.
+void print_map(const std::vector<Limit>& limits) {
+  std::vector<std::pair<double, std::string>> rows;
+  const auto add = [&](const LimitEnd& end, double angle, int sign) {
+    const std::string text = end.outcome == LimitOutcome::kReached ? fmt::format("{:.10g}", sign * end.value)
+                                                                   : std::string(to_string(end.outcome));
+    rows.emplace_back(angle, text);
+  };
+  for (const Limit& limit : limits) {
+    if (std::isnan(limit.map_angle)) continue;
+    add(limit.largest, limit.map_angle, 1);
+    add(limit.smallest, limit.map_angle + std::numbers::pi, -1);
+  }
+  if (rows.empty()) return;
+  std::sort(rows.begin(), rows.end());
+  say("largest multiple of (cos φ) times the first load and (sin φ) times the second\n  {:>8}  multiple\n",
+      "φ");
+  for (const auto& [angle, text] : rows) say("  {:>7.2f}°  {}\n", angle * 180 / std::numbers::pi, text);
+}
+
 std::string status_of(const Limit& limit) {
   if (!limit.is_decided()) return "undecided";
   if (limit.largest.outcome == LimitOutcome::kNoState) return "no state";
@@ -161,7 +182,9 @@ nlohmann::json end_to_json(const Packing& packing, const Limit& limit, const Lim
 
 void print_limits(const Packing& packing, const std::vector<Limit>& limits) {
   bool has_mechanism = false;
+  print_map(limits);
   for (const Limit& limit : limits) {
+    if (!std::isnan(limit.map_angle)) continue;
     print_limit(packing, limit);
     for (const LimitEnd* end : {&limit.smallest, &limit.largest})
       has_mechanism = has_mechanism || end->outcome == LimitOutcome::kReached;
@@ -184,6 +207,7 @@ nlohmann::json limits_to_json(const Packing& packing, const std::vector<Limit>& 
         {"largest_bounds", {json_number(limit.largest.lower), json_number(limit.largest.upper)}},
         {"first_of_several", limit.is_first_of_several},
         {"attained", limit.is_attained},
+        {"map_angle", json_number(limit.map_angle)},
         {"status", status_of(limit)},
         {"at_smallest", end_to_json(packing, limit, limit.smallest)},
         {"at_largest", end_to_json(packing, limit, limit.largest)}};

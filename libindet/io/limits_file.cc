@@ -128,6 +128,7 @@ void write_limit(Hdf5File& file, const std::string& group, const Packing& packin
     file.write(group + "/scaled", std::span<const std::uint8_t>(scaled), {scaled.size()},
                {"1", "1: the coefficient of friction of this contact is multiplied by the value"});
   }
+  if (!std::isnan(limit.map_angle)) file.set_attribute(group, "map_angle", limit.map_angle);
   if (limit.kind == LimitKind::kLoad) write_change(file, group + "/change", packing, limit.change);
 }
 
@@ -177,6 +178,8 @@ class LimitReader {
       for (const std::uint8_t is_scaled : file_.read_bytes(group_ + "/scaled", {packing_.contacts.size()}))
         limit.scaled.push_back(is_scaled != 0);
     }
+    if (file_.has_attribute(group_, "map_angle"))
+      limit.map_angle = file_.double_attribute(group_, "map_angle");
     if (limit.kind == LimitKind::kLoad) read_change(limit.change);
     return limit;
   }

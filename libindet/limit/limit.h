@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Limit {
   Loads change;              ///< of kLoad; else 0
   std::vector<bool> scaled;  ///< of kFriction: which contacts; else empty
   LimitEnd smallest, largest;
+  /// Of kLoad, one of those that map the plane of two loads: the change is cos φ times the first one and sin
+  /// φ times the second one. NaN: it is alone.
+  double map_angle = std::numeric_limits<double>::quiet_NaN();
   /// Of kFriction: it stands with the smallest factor itself (FrictionLimit::is_attained).
   bool is_attained = true;
   /// Of kTilt: something takes part that does not turn with gravity, so that it may stand again further on.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace indet {
 
@@ -20,6 +21,22 @@ bool Loads::is_zero() const {
   return gravity.isZero(0) && std::all_of(disks.begin(), disks.end(), is_nothing) &&
          std::all_of(walls.begin(), walls.end(), is_nothing) &&
          std::all_of(stress.begin(), stress.end(), [](double s) { return s == 0; });
+}
+
+Loads combined(double weight, const Loads& loads, double other_weight, const Loads& others) {
+  Loads sum;
+  sum.gravity = weight * loads.gravity + other_weight * others.gravity;
+  const auto add = [](const auto& from, double factor, auto& to) {
+    to.resize(std::max(to.size(), from.size()), std::decay_t<decltype(to.front())>::Zero());
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+  };
+  add(loads.disks, weight, sum.disks);
+  add(others.disks, other_weight, sum.disks);
+  add(loads.walls, weight, sum.walls);
+  add(others.walls, other_weight, sum.walls);
+  for (std::size_t k = 0; k < sum.stress.size(); ++k)
+    sum.stress[k] = weight * loads.stress[k] + other_weight * others.stress[k];
+  return sum;
 }
 
 Loads loads_of(const Packing& packing) {
@@ -57,8 +74,7 @@ std::string defect_of(const Loads& change, const Packing& packing) {
 
 Packing under(const Loads& change, double lambda, Packing packing) {
   packing.gravity += lambda * change.gravity;
-  for (std::size_t i = 0; i < change.disks.size(); ++i)
-    packing.disks[i].load += lambda * change.disks[i];
+  for (std::size_t i = 0; i < change.disks.size(); ++i) packing.disks[i].load += lambda * change.disks[i];
   for (std::size_t w = 0; w < change.walls.size(); ++w) {
     packing.walls[w].load_n += lambda * change.walls[w][0];  // NaN stays NaN: it is not free
     packing.walls[w].load_t += lambda * change.walls[w][1];

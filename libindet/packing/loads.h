@@ -25,6 +25,9 @@ struct Loads {
   bool is_zero() const;
 };
 
+/// Σ weight · loads, of two of one packing.
+Loads combined(double weight, const Loads& loads, double other_weight, const Loads& others);
+
 /// What acts on a packing as it is. 0 where a wall is not free, or a component of the stress not imposed.
 Loads loads_of(const Packing& packing);
 

@@ -343,7 +343,8 @@ Verification verify_limits(const Packing& packing, const std::vector<Limit>& lim
                     limit.is_first_of_several);
     for (const bool is_largest : {false, true}) EndCheck(packing, limit, is_largest, compare).check(exact);
   }
-  std::string unchecked = "dim and one_mechanism of limits, attained of limits of friction";
+  std::string unchecked =
+      "dim and one_mechanism of limits, attained of limits of friction, map_angle of loads";
   if (!exact) unchecked += ", and the last digits of bounds (--exact proves these)";
   compare.leave_unchecked(std::move(unchecked));
   return compare.result();

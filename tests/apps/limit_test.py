@@ -80,6 +80,31 @@ class Limits(program.ProgramTest):
         self.assertEqual(by_option["largest"], "inf")
         self.run_indet("verify", "--exact", "p.limits.h5")
 
+    def test_a_map_of_two_loads(self):
+        # A disk in a groove bears what leads into it: |F_x| ≤ tan 0.4 · (−F_y), with its weight of 1.
+        packing = self.packing(program.groove(0.4))
+        limits = self.limits(packing, "--load", "disk=0,1,0", "--load", "disk=0,0,1", "--map", "16")
+        self.assertEqual(len(limits), 8)
+        slope = math.tan(0.4)
+        ends = [(limit["map_angle"], limit["largest"]) for limit in limits]
+        ends += [(limit["map_angle"] + math.pi, limit["smallest"]) for limit in limits]
+        for angle, multiple in ends:
+            width = abs(math.cos(angle)) + slope * math.sin(angle)
+            if width > 1e-12:
+                self.assertAlmostEqual(abs(multiple), slope / width, delta=1e-12)
+            else:
+                self.assertIn(multiple, ("inf", "-inf"))
+        self.assertIn("  90.00°  1\n", self.run_indet("inspect", "p.limits.h5").stdout)
+        self.run_indet("verify", "--exact", "p.limits.h5")
+        self.run_indet("export", "p.limits.h5", "--style", "yield-curve", "-o", "y.svg")
+        self.assertGreater((self.folder / "y.svg").stat().st_size, 1000)
+        for number in ("3", "7", "x", "5000"):
+            self.run_indet("limit", packing, "--load", "disk=0,1,0", "--load", "disk=0,0,1", "--map", number, status=2)
+        self.run_indet("limit", packing, "--load", "disk=0,1,0", "--map", "8", status=2)
+        self.run_indet("limit", packing, "--tilt", "--overwrite")
+        done = self.run_indet("export", "p.limits.h5", "--style", "yield-curve", status=3)
+        self.assertIn("--map", done.stderr)
+
     def test_a_loose_disk_is_left_out_and_named(self):
         scene = program.groove(0.4)
         scene["disks.csv"] += "7,20,1,1,1\n"

@@ -1,0 +1,102 @@
+#include "libindet/drawing/yield_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libindet/base/tolerances.h"
+#include "libindet/drawing/canvas.h"
+#include "libindet/drawing/legend.h"
+#include "libindet/drawing/palette.h"
+
+namespace indet {
+namespace {
+
+constexpr double kSide = 300;
+constexpr double kBorder = 34;
+
+/// One direction of the map.
+struct Direction {
+  double angle = 0;
+  bool is_reached = false;
+  double multiple = 0;
+
+  Vector2 at(double length) const { return length * Vector2(std::cos(angle), std::sin(angle)); }
+};
+
+std::vector<Direction> directions_of(const std::vector<Limit>& limits) {
+  std::vector<Direction> directions;
+  const auto add = [&](const LimitEnd& end, double angle, int sign) {
+    directions.push_back({angle, end.outcome == LimitOutcome::kReached, sign * end.value});
+  };
+  for (const Limit& limit : limits) {
+    add(limit.largest, limit.map_angle, 1);
+    add(limit.smallest, limit.map_angle + std::numbers::pi, -1);
+  }
+  std::sort(directions.begin(), directions.end(),
+            [](const Direction& a, const Direction& b) { return a.angle < b.angle; });
+  return directions;
+}
+
+/// 1, 2 or 5 times a power of ten, with about four of them in `reach`.
+double tick_step(double reach) {
+  const double power = std::pow(10.0, std::floor(std::log10(reach / 2)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= reach / 2) return factor * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+void draw_yield_curve(const std::filesystem::path& path, const std::vector<Limit>& limits,
+                      const std::string& text) {
+  const std::vector<Direction> directions = directions_of(limits);
+  double reach = 0;
+  for (const Direction& direction : directions) {
+    if (direction.is_reached) reach = std::max(reach, std::abs(direction.multiple));
+  }
+  if (!(reach > 0)) reach = 1;
+  reach *= 1.1;
+  const Caption caption(text, kSide);
+  const double height = kSide + 2 * kBorder;
+  Canvas canvas(path, kSide + 2 * kBorder, height + caption.height());
+  const auto place = [&](const Vector2& point) {
+    return Vector2(kBorder + kSide * (0.5 + point.x() / (2 * reach)),
+                   kBorder + kSide * (0.5 - point.y() / (2 * reach)));
+  };
+  // The axes, with ticks on both sides of the origin.
+  canvas.line(place({-reach, 0}), place({reach, 0}), 0.5, palette::kUnknown, false, false);
+  canvas.line(place({0, -reach}), place({0, reach}), 0.5, palette::kUnknown, false, false);
+  const double step = tick_step(reach);
+  for (int k = -10; k <= 10; ++k) {
+    if (k == 0 || std::abs(k * step) > reach) continue;
+    const Vector2 x = place({k * step, 0});
+    const Vector2 y = place({0, k * step});
+    canvas.line(x, x + Vector2(0, 3), 0.5, palette::kUnknown, false, false);
+    canvas.text(x + Vector2(0, 3 + kTextSize), fmt::format("{:g}", k * step), kTextSize, 0.5);
+    canvas.line(y, y - Vector2(3, 0), 0.5, palette::kUnknown, false, false);
+    canvas.text(y + Vector2(-5, kTextSize / 3), fmt::format("{:g}", k * step), kTextSize, 1);
+  }
+  canvas.text(place({reach, 0}) + Vector2(0, -4), "first load", kTextSize, 1);
+  canvas.text(place({0, reach}) + Vector2(4, 0), "second load", kTextSize, 0);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const Direction& a = directions[k];
+    const Direction& b = directions[(k + 1) % directions.size()];
+    if (!a.is_reached && !b.is_reached) continue;
+    const bool is_open = !a.is_reached || !b.is_reached;
+    canvas.line(place(a.at(a.is_reached ? a.multiple : reach)),
+                place(b.at(b.is_reached ? b.multiple : reach)), 1.2, palette::kNegative, is_open, true);
+  }
+  for (const Direction& direction : directions) {
+    if (direction.is_reached)
+      canvas.disk(place(direction.at(direction.multiple)), 1.6, palette::kNegative, palette::kNegative, 0.2);
+  }
+  canvas.disk(place({0, 0}), 2.5, palette::kPositive, palette::kPositive, 0.2);
+  caption.draw(canvas, {kBorder, height});
+  canvas.finish();
+}
+
+}  // namespace indet
