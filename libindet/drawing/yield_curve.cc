@@ -54,34 +54,46 @@ double tick_step(double reach) {
 void draw_yield_curve(const std::filesystem::path& path, const std::vector<Limit>& limits,
                       const std::string& text) {
   const std::vector<Direction> directions = directions_of(limits);
-  double reach = 0;
+  // A square about all points and the origin.
+  Vector2 low(0, 0);
+  Vector2 high(0, 0);
   for (const Direction& direction : directions) {
-    if (direction.is_reached) reach = std::max(reach, std::abs(direction.multiple));
+    if (!direction.is_reached) continue;
+    low = low.cwiseMin(direction.at(direction.multiple));
+    high = high.cwiseMax(direction.at(direction.multiple));
   }
-  if (!(reach > 0)) reach = 1;
-  reach *= 1.1;
+  double size = 1.15 * (high - low).maxCoeff();
+  if (!(size > 0)) size = 1;
+  const Vector2 middle = (low + high) / 2;
   const Caption caption(text, kSide);
   const double height = kSide + 2 * kBorder;
   Canvas canvas(path, kSide + 2 * kBorder, height + caption.height());
   const auto place = [&](const Vector2& point) {
-    return Vector2(kBorder + kSide * (0.5 + point.x() / (2 * reach)),
-                   kBorder + kSide * (0.5 - point.y() / (2 * reach)));
+    const Vector2 share = (point - middle) / size;
+    return Vector2(kBorder + kSide * (0.5 + share.x()), kBorder + kSide * (0.5 - share.y()));
   };
-  // The axes, with ticks on both sides of the origin.
-  canvas.line(place({-reach, 0}), place({reach, 0}), 0.5, palette::kUnknown, false, false);
-  canvas.line(place({0, -reach}), place({0, reach}), 0.5, palette::kUnknown, false, false);
-  const double step = tick_step(reach);
-  for (int k = -10; k <= 10; ++k) {
-    if (k == 0 || std::abs(k * step) > reach) continue;
-    const Vector2 x = place({k * step, 0});
-    const Vector2 y = place({0, k * step});
-    canvas.line(x, x + Vector2(0, 3), 0.5, palette::kUnknown, false, false);
-    canvas.text(x + Vector2(0, 3 + kTextSize), fmt::format("{:g}", k * step), kTextSize, 0.5);
-    canvas.line(y, y - Vector2(3, 0), 0.5, palette::kUnknown, false, false);
-    canvas.text(y + Vector2(-5, kTextSize / 3), fmt::format("{:g}", k * step), kTextSize, 1);
-  }
-  canvas.text(place({reach, 0}) + Vector2(0, -4), "first load", kTextSize, 1);
-  canvas.text(place({0, reach}) + Vector2(4, 0), "second load", kTextSize, 0);
+  const Vector2 lower = middle.array() - size / 2;
+  const Vector2 upper = middle.array() + size / 2;
+  canvas.line(place({lower.x(), 0}), place({upper.x(), 0}), 0.5, palette::kUnknown, false, false);
+  canvas.line(place({0, lower.y()}), place({0, upper.y()}), 0.5, palette::kUnknown, false, false);
+  const double step = tick_step(size / 2);
+  const auto ticks = [&](double from, double to, const auto& draw) {
+    for (double k = std::ceil(from / step); k * step <= to; ++k) {
+      if (k != 0) draw(k * step, fmt::format("{:g}", k * step));
+    }
+  };
+  ticks(lower.x(), upper.x(), [&](double x, const std::string& label) {
+    const Vector2 at = place({x, 0});
+    canvas.line(at, at + Vector2(0, 3), 0.5, palette::kUnknown, false, false);
+    canvas.text(at + Vector2(0, 3 + kTextSize), label, kTextSize, 0.5);
+  });
+  ticks(lower.y(), upper.y(), [&](double y, const std::string& label) {
+    const Vector2 at = place({0, y});
+    canvas.line(at, at - Vector2(3, 0), 0.5, palette::kUnknown, false, false);
+    canvas.text(at + Vector2(-5, kTextSize / 3), label, kTextSize, 1);
+  });
+  canvas.text(place({upper.x(), 0}) + Vector2(0, -4), "first load", kTextSize, 1);
+  canvas.text(place({0, upper.y()}) + Vector2(4, 0), "second load", kTextSize, 0);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Direction& a = directions[k];
     const Direction& b = directions[(k + 1) % directions.size()];
