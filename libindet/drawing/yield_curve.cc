@@ -99,8 +99,13 @@ void draw_yield_curve(const std::filesystem::path& path, const std::vector<Limit
     const Direction& b = directions[(k + 1) % directions.size()];
     if (!a.is_reached && !b.is_reached) continue;
     const bool is_open = !a.is_reached || !b.is_reached;
-    canvas.line(place(a.at(a.is_reached ? a.multiple : reach)),
-                place(b.at(b.is_reached ? b.multiple : reach)), 1.2, palette::kNegative, is_open, true);
+    const Vector2 from = a.is_reached ? a.at(a.multiple) : a.at(size);
+    const Vector2 to = b.is_reached ? b.at(b.multiple) : b.at(size);
+    // An open end is not drawn beyond the square.
+    const double share = is_open ? std::min(1.0, 0.2 * size / (to - from).norm()) : 1;
+    const Vector2 start = a.is_reached ? from : Vector2(to + share * (from - to));
+    const Vector2 stop = b.is_reached ? to : Vector2(from + share * (to - from));
+    canvas.line(place(start), place(stop), 1.2, palette::kNegative, is_open, true);
   }
   for (const Direction& direction : directions) {
     if (direction.is_reached)

@@ -61,12 +61,14 @@ Eigen::VectorXd Vertex::multipliers(const Objective& objective) const {
 }
 
 Eigen::VectorXd Vertex::multipliers(const SlopeView& view, const Eigen::VectorXd& e) const {
-  if (!sparse) return multipliers(Objective{view.slope.transpose() * e, {}});
+  constexpr std::size_t kFew = 8;  // for which rows of S are faster than all of it
   std::vector<std::pair<int, double>> on_edges;
   for (Eigen::Index k = 0; k < e.size(); ++k) {
     if (e[k] != 0) on_edges.emplace_back(static_cast<int>(k), e[k]);
   }
-  return sparse->multipliers(on_edges);
+  if (sparse) return sparse->multipliers(on_edges);
+  if (on_edges.size() <= kFew) return multipliers(make_objective(view, std::move(on_edges)));
+  return multipliers(Objective{view.slope.transpose() * e, {}});
 }
 
 Vertex compute_vertex(const SlopeView& view, const Basis& basis) {

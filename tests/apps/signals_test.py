@@ -42,18 +42,19 @@ class Signals(program.ProgramTest):
         for name in ("large", "triangle"):
             self.run_indet("import", "--format", "csv", name, "-o", f"{name}.h5")
         self.run_indet("simulate", "--protocol", "md1", "--disks", "95", "-o", "p.h5")
+        self.run_indet("simulate", "--protocol", "cd1", "--disks", "220", "-o", "q.h5")
         self.run_indet("analyze", "p.h5", "-o", "r.h5")
         runs = [  # processor time (s) before the signal, and the run
             (0, "import --format csv large -o out"),
             (0.3, "analyze triangle.h5 --method lp -o out"),  # the polytope, dense
             (0.3, "analyze large.h5 -o out"),  # the polytope, sparse
-            (1.5, "analyze p.h5 --accuracy exact -o out"),  # exact pivots
+            (1.5, "analyze q.h5 --accuracy exact -o out"),  # exact proofs
             (0.3, "analyze p.h5 --method pivoting-paper -o out"),
             (0.3, "compare p.h5"),
             (0.5, "sample triangle.h5 --method uniform -o out"),  # the polytope
             (0.5, "sample p.h5 --method uniform --effective 1000000 -o out"),  # the walk
             (0.1, "sample p.h5 --samples 1000000 -o out"),
-            (0.5, "verify r.h5 --exact"),
+            (0.3, "verify r.h5 --exact"),
             (0.3, "simulate --protocol cd1 --disks 2000 -o out"),  # leaves a checkpoint
             (0.1, "export large.h5 -o out.svg"),
             (0.3, "ensemble --seeds 50 -o e"),

@@ -160,7 +160,7 @@ class Export(CommandTest):
             self.assertIn(message, done.stderr)
         for state in ["best", "N_max:1", "R_max:-1", "R_max:", "state:1.5"]:
             done = self.run_indet("export", f"{SAMPLES}/ranges.h5", "--state", state, "-o", "s.svg", status=2)
-            self.assertIn("must be sim, max-norm", done.stderr)
+            self.assertIn("must be sim, limit, max-norm", done.stderr)
         self.import_lammps("--friction", "0.3")
         done = self.run_indet("export", "p.h5", "--state", "max-norm", status=3)
         self.assertIn("compute them first: indet analyze p.h5", done.stderr)
