@@ -84,15 +84,23 @@ class FrictionFinder {
   }
 
   /// The largest t with x ≥ t, as GLPK tells; −1 where no forces balance the load, 1 where t has no limit.
-  double margin(double factor) const {
-    const Packing there = at(factor);
-    const EquilibriumProblem problem = pose_equilibrium(there);
-    const LimitProgram::Answer answer = LimitProgram(problem, relaxation(problem)).find(1);
+  double margin(double factor) {
+    const LimitProgram::Answer answer = relaxed_at(factor);
     if (answer.status == LpStatus::kUnbounded) return 1;
     return answer.status == LpStatus::kOptimal ? answer.lambda : -1;
   }
 
-  double zero_between(double low, double high) const {
+  /// The linear program of the relaxed problem, from where the last one ended.
+  LimitProgram::Answer relaxed_at(double factor) {
+    problem_ = pose_equilibrium(at(factor));
+    if (program_)
+      program_->replace(problem_, relaxation(problem_));
+    else
+      program_ = std::make_unique<LimitProgram>(problem_, relaxation(problem_));
+    return program_->find(1);
+  }
+
+  double zero_between(double low, double high) {
     std::uintmax_t most = 100;
     const auto is_close = [](double a, double b) {
       return std::abs(b - a) <= tolerance::kFrictionFactor / 4 * std::abs(b);
@@ -119,9 +127,9 @@ class FrictionFinder {
   /// The largest t is negative, and the motion that proves it is stored.
   bool prove_fall(double factor) {
     const Packing there = at(factor);
-    const EquilibriumProblem problem = pose_equilibrium(there);
     const ContactProblem exact = ContactProblem::relaxed(there);
-    const auto basis = basis_of(exact, problem, LimitProgram(problem, relaxation(problem)).find(1));
+    const LimitProgram::Answer answer = relaxed_at(factor);
+    const auto basis = basis_of(exact, problem_, answer);
     if (!basis) return false;
     const Goal goal = Goal::of_strengths({{exact.rise(), 1.0}, {exact.fall(), -1.0}});
     const Optimum found = exact::maximise(exact, basis, goal, options_.most_pivots);
@@ -185,6 +193,8 @@ class FrictionFinder {
   const Packing& packing_;
   const std::vector<bool>& scaled_;
   LimitOptions options_;
+  EquilibriumProblem problem_;  ///< with the friction that was asked about last
+  std::unique_ptr<LimitProgram> program_;
   LimitEnd end_;
   FrictionLimit result_;
   bool is_inconsistent_ = false;  ///< the equations contradict each other, whatever the forces

@@ -23,6 +23,9 @@ class LimitProgram {
   explicit LimitProgram(const EquilibriumProblem& problem, const LpOptions& options = {});
   LimitProgram(const EquilibriumProblem& problem, Eigen::VectorXd change, const LpOptions& options = {});
 
+  /// Goes on with another problem of the same unknowns and equations, as with other coefficients of friction.
+  void replace(const EquilibriumProblem& problem, Eigen::VectorXd change);
+
   struct Answer {
     LpStatus status = LpStatus::kFailed;
     std::vector<bool> basic;  ///< of each edge; of the last point that the simplex method saw
@@ -35,10 +38,12 @@ class LimitProgram {
 
  private:
   bool has_change() const { return change_.size() > 0; }
+  void scale();
   void build();
+  void load();
   LpStatus attempt(int rung);
 
-  const EquilibriumProblem& problem_;
+  const EquilibriumProblem* problem_;
   LpOptions options_;
   Eigen::VectorXd change_;  ///< b_1 / scale_
   double scale_ = 1;
