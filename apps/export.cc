@@ -234,7 +234,7 @@ void export_mechanism(const std::filesystem::path& output, const ExportOptions& 
   const ChosenLimit chosen = choose_limit(options, file, "--style mechanism");
   if (chosen.end().motion.disks.rows() == 0)
     throw InputError(fmt::format("{}: nothing moves there: {}", options.file, chosen.description()));
-  draw_mechanism(output, without(packing, chosen.limit.left_out), chosen.end().motion,
+  draw_mechanism(output, under_mechanism(packing, chosen.limit, chosen.end()), chosen.end().motion,
                  caption(options, packing, "mechanism at " + chosen.description()));
 }
 

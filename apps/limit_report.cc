@@ -12,6 +12,7 @@
 #include "apps/wording.h"
 #include "libindet/base/constants.h"
 #include "libindet/limit/mechanism.h"
+#include "libindet/limit/tilt.h"
 
 namespace indet::app {
 namespace {
@@ -51,7 +52,8 @@ MotionCount count_motions(const Packing& packing, const exact::BodyMotion& motio
   return count;
 }
 
-void print_end(const Packing& packing, const Limit& limit, const LimitEnd& end, bool is_largest) {
+void print_end(const Packing& whole, const Limit& limit, const LimitEnd& end, bool is_largest) {
+  const Packing packing = without(whole, limit.left_out);
   const char* name = is_largest ? "largest" : "smallest";
   switch (end.outcome) {
     case LimitOutcome::kReached:
@@ -73,7 +75,7 @@ void print_end(const Packing& packing, const Limit& limit, const LimitEnd& end, 
       return;
   }
   if (end.motion.disks.rows() == 0) return;
-  const MotionCount count = count_motions(packing, end.motion);
+  const MotionCount count = count_motions(under_mechanism(whole, limit, end), end.motion);
   say("            there {}: {} open, {} slide{}\n", disks_text(packing, moving_disks(end.motion)),
       counted(count.open, "contact"), count.slide,
       end.has_one_mechanism ? "" : "; other motions may be possible, too");
@@ -82,25 +84,31 @@ void print_end(const Packing& packing, const Limit& limit, const LimitEnd& end, 
         describe_expected_dimension(packing), end.dim < 0 ? "" : fmt::format("; dim F = {}", end.dim));
 }
 
+/// "all", "12 of 68".
+std::string counted_scaled(const Limit& limit) {
+  const auto count = std::count(limit.scaled.begin(), limit.scaled.end(), true);
+  if (count == std::ssize(limit.scaled)) return "all";
+  return fmt::format("{} of {}", count, limit.scaled.size());
+}
+
 void print_friction(const Packing& packing, const Limit& limit) {
-  say("{}: the factor by which {} of its contacts may have less friction\n", limit.load,
-      limit.scaled.size() ==
-              static_cast<std::size_t>(std::count(limit.scaled.begin(), limit.scaled.end(), true))
-          ? "all"
-          : "some");
+  say("{}: the least factor of the coefficients of friction of {} contacts\n", limit.load,
+      counted_scaled(limit));
   const LimitEnd& end = limit.smallest;
   if (end.outcome == LimitOutcome::kNoState) {
-    say("  no friction suffices (proven up to {:.3g} times of what there is)\n", end.lower);
+    say("  no friction suffices{}\n",
+        std::isinf(end.lower) ? "" : fmt::format(" (proven up to {:.3g} times of what there is)", end.lower));
   } else if (end.outcome == LimitOutcome::kReached && end.value == 0 && limit.is_attained) {
     say("  no friction is needed\n");
     return;
   } else if (end.outcome == LimitOutcome::kReached && end.value == 0) {
-    say("  any friction suffices, but there must be some: with less of it forces grow without limit\n");
+    say("  with {:.1e} times the friction that there is it still stands, with none it does not\n", end.upper);
   } else {
-    if (limit.is_decided() && !limit.stands()) say("  it cannot stand as it is\n");
+    if (limit.falls()) say("  it cannot stand as it is\n");
     print_end(packing, limit, end, false);
     if (end.outcome == LimitOutcome::kReached && !limit.is_attained)
-      say("            with this factor itself it does not stand: forces grow without limit towards it\n");
+      say("            with this factor itself it seems not to stand: forces grow without limit towards "
+          "it\n");
     return;
   }
   if (end.motion.disks.rows() > 0) say("            {}\n", disks_text(packing, moving_disks(end.motion)));
@@ -124,10 +132,12 @@ void print_limit(const Packing& whole, const Limit& limit) {
     return;
   }
   if (limit.is_decided() && !limit.stands()) say("  it cannot stand as it is, only between these\n");
-  print_end(packing, limit, limit.smallest, false);
-  print_end(packing, limit, limit.largest, true);
+  print_end(whole, limit, limit.smallest, false);
+  print_end(whole, limit, limit.largest, true);
   if (limit.is_first_of_several)
-    say("  something acts that does not turn with gravity: further on it may stand again\n");
+    say("  beyond these angles it may stand again: {}\n",
+        is_under_gravity_alone(packing) ? "in the opposite direction"
+                                        : "something acts that does not turn with gravity");
 }
 
 /// The largest multiple in each direction of the plane of two loads.
@@ -151,13 +161,13 @@ void print_map(const std::vector<Limit>& limits) {
 }
 
 std::string status_of(const Limit& limit) {
-  if (!limit.is_decided()) return "undecided";
-  if (limit.largest.outcome == LimitOutcome::kNoState) return "no state";
-  return limit.stands() ? "stands" : "does not stand";
+  if (limit.smallest.outcome == LimitOutcome::kNoState) return "no state";
+  if (limit.falls()) return "does not stand";
+  return limit.stands() && limit.is_decided() ? "stands" : "undecided";
 }
 
 MotionCount count_motions(const Packing& packing, const Limit& limit, const LimitEnd& end) {
-  return count_motions(without(packing, limit.left_out), end.motion);
+  return count_motions(under_mechanism(packing, limit, end), end.motion);
 }
 
 nlohmann::json end_to_json(const Packing& packing, const Limit& limit, const LimitEnd& end) {

@@ -21,6 +21,7 @@ constexpr double kBorder = 34;
 struct Direction {
   double angle = 0;
   bool is_reached = false;
+  bool is_never = false;  ///< there is no limit in this direction
   double multiple = 0;
 
   Vector2 at(double length) const { return length * Vector2(std::cos(angle), std::sin(angle)); }
@@ -29,7 +30,8 @@ struct Direction {
 std::vector<Direction> directions_of(const std::vector<Limit>& limits) {
   std::vector<Direction> directions;
   const auto add = [&](const LimitEnd& end, double angle, int sign) {
-    directions.push_back({angle, end.outcome == LimitOutcome::kReached, sign * end.value});
+    directions.push_back({angle, end.outcome == LimitOutcome::kReached, end.outcome == LimitOutcome::kNever,
+                          sign * end.value});
   };
   for (const Limit& limit : limits) {
     add(limit.largest, limit.map_angle, 1);
@@ -97,7 +99,8 @@ void draw_yield_curve(const std::filesystem::path& path, const std::vector<Limit
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Direction& a = directions[k];
     const Direction& b = directions[(k + 1) % directions.size()];
-    if (!a.is_reached && !b.is_reached) continue;
+    const bool is_known = (a.is_reached || a.is_never) && (b.is_reached || b.is_never);
+    if (!is_known || (a.is_never && b.is_never)) continue;
     const bool is_open = !a.is_reached || !b.is_reached;
     const Vector2 from = a.is_reached ? a.at(a.multiple) : a.at(size);
     const Vector2 to = b.is_reached ? b.at(b.multiple) : b.at(size);

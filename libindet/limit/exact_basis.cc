@@ -1,6 +1,5 @@
 #include "libindet/limit/exact_basis.h"
 
-
 #include "libindet/exact/optimum.h"
 
 namespace indet {
@@ -35,13 +34,15 @@ SceneForces forces_of(const exact::ContactBasis& basis, int contacts) {
   return SceneForces(Eigen::Map<const Eigen::VectorXd>(forces.data(), 2 * contacts));
 }
 
-ClosedContacts closed_contacts(const exact::ContactBasis& basis, int contacts) {
+ClosedContacts closed_contacts(const exact::ContactProblem& problem, const exact::ContactBasis& basis) {
+  const int contacts = problem.contacts();
   ClosedContacts closed;
   for (int contact = 0; contact < contacts; ++contact) {
-    const int edges = (basis.sign_of_strength(2 * contact) == 0 ? 1 : 0) +
-                      (basis.sign_of_strength(2 * contact + 1) == 0 ? 1 : 0);
-    closed.edges += edges;
-    closed.contacts += edges == 2 ? 1 : 0;
+    const int open = (basis.sign_of_strength(2 * contact) != 0 ? 1 : 0) +
+                     (basis.sign_of_strength(2 * contact + 1) != 0 ? 1 : 0);
+    const bool has_friction = problem.mu(contact) > 0;
+    closed.contacts += open == 0 ? 1 : 0;
+    closed.edges += open == 0 ? 2 : has_friction ? 2 - open : 0;
   }
   return closed;
 }

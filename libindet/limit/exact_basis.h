@@ -24,11 +24,12 @@ std::shared_ptr<const exact::ContactBasis> basis_of(const exact::ContactProblem&
 /// R and T of each contact, rounded.
 SceneForces forces_of(const exact::ContactBasis& basis, int contacts);
 
-/// How many edges have no strength (M_s: a contact without force counts twice), and how many contacts.
+/// M_s, how many edges of contacts with friction have no strength, and a contact without force counts twice;
+/// and how many contacts have no force (CoulombCount).
 struct ClosedContacts {
   int edges = 0;
   int contacts = 0;
 };
-ClosedContacts closed_contacts(const exact::ContactBasis& basis, int contacts);
+ClosedContacts closed_contacts(const exact::ContactProblem& problem, const exact::ContactBasis& basis);
 
 }  // namespace indet

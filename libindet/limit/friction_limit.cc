@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -59,10 +60,13 @@ class FrictionFinder {
       describe_any(low, without);
       return finish();
     }
-    const double zero = zero_between(low, high);
-    for (double share = tolerance::kFrictionFactor / 2; share < tolerance::kLimitWidth / 2; share *= 10) {
-      if (enclose(zero, share)) break;
+    if (margin(low) < 0 && margin(high) > 0) {
+      const double zero = zero_between(low, high);
+      for (double share = tolerance::kFrictionFactor / 2; share < tolerance::kLimitWidth / 2; share *= 10) {
+        if (enclose(zero, share)) break;
+      }
     }
+    if (end_.outcome != LimitOutcome::kReached) bisect(low, high);
     if (end_.outcome == LimitOutcome::kReached) result_.is_attained = !grows();
     return finish();
   }
@@ -75,11 +79,13 @@ class FrictionFinder {
     return standing;
   }
 
-  /// Far from 1 GLPK's tolerances say little: there exact arithmetic has the last word.
+  /// Where t is near 0 for GLPK, as where some edges are closed with any friction, or far from 1, where its
+  /// tolerances say little, exact arithmetic has the last word.
   bool falls_at(double factor) {
     constexpr double kFar = 64;
-    const bool falls = margin(factor) < 0;
-    if (!falls || (factor < kFar && factor > 1 / kFar)) return falls;
+    constexpr double kClear = 1e-9;
+    const double t = margin(factor);
+    if (std::abs(t) > kClear && factor < kFar && factor > 1 / kFar) return t < 0;
     return !stand(factor).stands();
   }
 
@@ -122,6 +128,25 @@ class FrictionFinder {
     end_.lower = below;
     end_.upper = above;
     return true;
+  }
+
+  /// By halves, with exact arithmetic alone. It falls at `low` and stands at `high`.
+  void bisect(double low, double high) {
+    while (high - low > tolerance::kFrictionFactor * high) {
+      const double middle = std::midpoint(low, high);
+      const Standing there = stand(middle);
+      if (!there.stands() && !there.falls()) return;
+      (there.stands() ? high : low) = middle;
+    }
+    const Standing below = stand(low);
+    const Standing above = stand(high);
+    if (!below.falls() || !above.stands()) return;
+    describe_state(above, high);
+    end_.motion = below.motion;
+    end_.outcome = LimitOutcome::kReached;
+    end_.lower = low;
+    end_.upper = high;
+    end_.value = high;
   }
 
   /// The largest t is negative, and the motion that proves it is stored.

@@ -19,8 +19,9 @@ struct FrictionLimit {
   ///   kReached  at 0: no friction is needed
   ///   kNoState  no friction suffices, up to the factor `lower` at least, of which it is proven
   LimitEnd infimum;
-  /// It stands with the infimum itself. Not so where forces grow without limit as s falls to it: a column
-  /// between two walls needs some friction, however little.
+  /// It stands with the infimum itself, as far as forces just above tell: they are compared at two distances.
+  /// Not so where forces grow without limit as s falls to it: a column between two walls needs some friction,
+  /// however little.
   bool is_attained = true;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "libindet/base/constants.h"
@@ -18,14 +17,19 @@ bool touches(const Contact& contact, DiskId disk) {
   return contact.a == disk || (!contact.b.is_wall() && contact.b.disk_id() == disk);
 }
 
-/// The disk that moves alone at an angle below `least`.
-std::optional<DiskId> loose_disk(const TiltLimits& limits, double least) {
+bool is_left_out(const Contact& contact, const std::vector<DiskId>& disks) {
+  return std::any_of(disks.begin(), disks.end(), [&](DiskId disk) { return touches(contact, disk); });
+}
+
+/// Disks that move alone at an angle below `least`.
+std::vector<DiskId> loose_disks(const TiltLimits& limits, double least) {
+  std::vector<DiskId> loose;
   for (const LimitEnd* end : {&limits.smallest, &limits.largest}) {
     if (end->outcome != LimitOutcome::kReached || std::abs(end->value) >= least) continue;
     const std::vector<DiskId> moving = moving_disks(end->motion);
-    if (moving.size() == 1) return moving.front();
+    if (moving.size() == 1) loose.push_back(moving.front());
   }
-  return {};
+  return loose;
 }
 
 /// With forces of 0 at contacts of disks that were left out.
@@ -35,12 +39,20 @@ LimitEnd on_all_contacts(const Packing& packing, const std::vector<DiskId>& left
   Eigen::Index next = 0;
   for (int i = 0; i < packing.contact_count(); ++i) {
     const Contact& contact = packing[ContactId(i)];
-    if (std::any_of(left_out.begin(), left_out.end(), [&](DiskId disk) { return touches(contact, disk); }))
-      continue;
+    if (is_left_out(contact, left_out)) continue;
     forces.segment<2>(2 * i) = end.forces.value().segment<2>(next);
     next += 2;
   }
   end.forces = SceneForces(std::move(forces));
+  // Multipliers of bounds of what was left out are 0.
+  const std::vector<ForceBound> bounds = force_bounds(packing);
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bounds.size()));
+  next = 0;
+  for (std::size_t k = 0; end.motion.bounds.size() > 0 && k < bounds.size(); ++k) {
+    if (!is_left_out(packing[bounds[k].contact], left_out))
+      multipliers[static_cast<Eigen::Index>(k)] = end.motion.bounds[next++];
+  }
+  if (end.motion.disks.rows() > 0) end.motion.bounds = std::move(multipliers);
   return end;
 }
 
@@ -71,13 +83,18 @@ Packing without(Packing packing, const std::vector<DiskId>& disks) {
 Limit find_tilt(const Packing& packing, double ignore_below, const LimitOptions& options) {
   Limit limit;
   TiltLimits found = find_tilt_limits(packing, options);
-  while (const std::optional<DiskId> loose = loose_disk(found, ignore_below)) {
-    std::vector<DiskId> left_out = limit.left_out;
-    left_out.push_back(*loose);
-    TiltLimits next = find_tilt_limits(without(packing, left_out), options);
-    if (!next.stands()) break;
-    found = std::move(next);
-    limit.left_out = std::move(left_out);
+  for (bool is_done = false; !is_done;) {
+    is_done = true;
+    for (const DiskId loose : loose_disks(found, ignore_below)) {
+      std::vector<DiskId> left_out = limit.left_out;
+      left_out.push_back(loose);
+      TiltLimits next = find_tilt_limits(without(packing, left_out), options);
+      if (!next.stands()) continue;
+      found = std::move(next);
+      limit.left_out = std::move(left_out);
+      is_done = false;
+      break;
+    }
   }
   limit.kind = LimitKind::kTilt;
   limit.load = "tilt";
@@ -112,6 +129,12 @@ Limit find_friction(const Packing& packing, std::string name, std::vector<bool> 
   if (limit.largest.outcome == LimitOutcome::kNever)
     limit.largest.value = limit.largest.lower = limit.largest.upper = kInfinity;
   return limit;
+}
+
+Packing under_mechanism(const Packing& packing, const Limit& limit, const LimitEnd& end) {
+  if (limit.kind != LimitKind::kFriction) return without(packing, limit.left_out);
+  const bool is_known = std::isfinite(end.lower) && end.lower >= 0;
+  return is_known ? with_friction(packing, limit.scaled, end.lower) : packing;
 }
 
 Packing at_end(const Packing& packing, const Limit& limit, const LimitEnd& end) {

@@ -38,10 +38,15 @@ struct Limit {
 
   /// The angle, multiple or factor of the packing as it is.
   double present() const { return kind == LimitKind::kFriction ? 1 : 0; }
-  /// It stands as it is.
+  /// It is proven to stand as it is; it is proven not to.
   bool stands() const { return smallest.upper <= present() && largest.lower >= present(); }
+  bool falls() const {
+    return smallest.outcome == LimitOutcome::kNoState || present() < smallest.lower ||
+           present() > largest.upper;
+  }
   bool is_decided() const {
-    return smallest.outcome != LimitOutcome::kUndecided && largest.outcome != LimitOutcome::kUndecided;
+    return (stands() || falls()) && smallest.outcome != LimitOutcome::kUndecided &&
+           largest.outcome != LimitOutcome::kUndecided;
   }
 };
 
@@ -54,6 +59,10 @@ Packing without(Packing packing, const std::vector<DiskId>& disks);
 /// without it (it carries no other), that disk is taken out.
 Limit find_tilt(const Packing& packing, double ignore_below = 0, const LimitOptions& options = {});
 Limit find_load(const Packing& packing, std::string name, Loads change, const LimitOptions& options = {});
+
+/// The packing whose contacts the mechanism of an end is about: without what was left out, and with the
+/// friction just below a limit of friction.
+Packing under_mechanism(const Packing& packing, const Limit& limit, const LimitEnd& end);
 
 /// `scaled`: as of find_friction_limit.
 Limit find_friction(const Packing& packing, std::string name, std::vector<bool> scaled,

@@ -54,9 +54,30 @@ struct LoadLimitFinder::Impl {
   LimitEnd find(int sign) {
     LimitEnd end;
     const LimitProgram::Answer answer = program_.find(sign);
+    if (answer.status == LpStatus::kUnbounded && !prove_some_state(answer, end)) return end;
     if (answer.status == LpStatus::kUnbounded && prove_never(sign, end)) return end;
     prove(answer, sign, end);
     return end;
+  }
+
+  /// Some λ has a state. If none has, or that is not decided, the end says so.
+  bool prove_some_state(const LimitProgram::Answer& answer, LimitEnd& end) const {
+    const SharedBasis basis = basis_of(exact_, problem_, answer);
+    if (!basis) return false;
+    const Optimum found = exact::find_solution(exact_, basis, options_.most_pivots);
+    end.pivots += found.pivots;
+    if (found.verdict == Verdict::kOptimal) return true;
+    describe_fall(found, end);
+    return false;
+  }
+
+  /// No λ has a state, if that was found.
+  void describe_fall(const Optimum& found, LimitEnd& end) const {
+    if (found.verdict != Verdict::kEmpty && found.verdict != Verdict::kInconsistent) return;
+    end.outcome = LimitOutcome::kNoState;
+    end.motion = exact::on_bodies(packing_, exact_,
+                                  found.verdict == Verdict::kEmpty ? found.basis->falling_motion(found.edge)
+                                                                   : *found.basis->contradiction());
   }
 
   /// The change alone is balanced by admissible forces, so that any state can take any multiple of it.
@@ -81,22 +102,10 @@ struct LoadLimitFinder::Impl {
     const Goal goal = Goal::of_strengths({{exact_.rise(), 1.0 * sign}, {exact_.fall(), -1.0 * sign}});
     const Optimum found = exact::maximise(exact_, basis, goal, options_.most_pivots);
     end.pivots += found.pivots;
-    switch (found.verdict) {
-      case Verdict::kOptimal:
-        describe(found, goal, sign, end);
-        return;
-      case Verdict::kEmpty:
-        end.outcome = LimitOutcome::kNoState;
-        end.motion = exact::on_bodies(packing_, exact_, found.basis->falling_motion(found.edge));
-        return;
-      case Verdict::kInconsistent:
-        end.outcome = LimitOutcome::kNoState;
-        end.motion = exact::on_bodies(packing_, exact_, *found.basis->contradiction());
-        return;
-      case Verdict::kUnbounded:
-      case Verdict::kUndecided:
-        return;
-    }
+    if (found.verdict == Verdict::kOptimal)
+      describe(found, goal, sign, end);
+    else
+      describe_fall(found, end);
   }
 
   void describe(const Optimum& found, const Goal& goal, int sign, LimitEnd& end) const {
@@ -109,7 +118,7 @@ struct LoadLimitFinder::Impl {
     end.upper = bounds.upper;
     end.forces = forces_of(basis, packing_.contact_count());
     end.motion = exact::on_bodies(packing_, exact_, basis.motion(*found.multipliers));
-    const ClosedContacts closed = closed_contacts(basis, packing_.contact_count());
+    const ClosedContacts closed = closed_contacts(exact_, basis);
     end.sliding = closed.edges;
     end.non_transmitting = closed.contacts;
     describe_face(found, goal, end);

@@ -37,6 +37,12 @@ std::vector<ContactMotion> contact_motions(const Packing& packing, const exact::
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const double mu = packing.contacts[i].mu;
     const double scale = tolerance::kRestingRate * std::max(1.0, mu);
+    if (mu == 0) {
+      motions.push_back(rates[i].opening > scale             ? ContactMotion::kOpens
+                        : std::abs(rates[i].sliding) > scale ? ContactMotion::kSlides
+                                                             : ContactMotion::kRests);
+      continue;
+    }
     const bool plus = rates[i].opening + mu * rates[i].sliding > scale;
     const bool minus = rates[i].opening - mu * rates[i].sliding > scale;
     motions.push_back(plus && minus   ? ContactMotion::kOpens

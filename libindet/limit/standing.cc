@@ -12,8 +12,8 @@ Standing find_standing(const Packing& packing, const LimitOptions& options) {
   const EquilibriumProblem problem = pose_equilibrium(packing);
   const exact::ContactProblem exact(packing);
   const LimitProgram::Answer answer = LimitProgram(problem).find(0);
-  const std::shared_ptr<const exact::ContactBasis> start = exact::ContactBasis::create(
-      exact, exact.choose_basis(basis_preferences(exact, problem, answer.basic)));
+  const std::shared_ptr<const exact::ContactBasis> start =
+      exact::ContactBasis::create(exact, exact.choose_basis(basis_preferences(exact, problem, answer.basic)));
   Standing result;
   if (!start) return result;
   const exact::Optimum found = exact::find_solution(exact, start, options.most_pivots);
@@ -21,9 +21,6 @@ Standing find_standing(const Packing& packing, const LimitOptions& options) {
   result.pivots = found.pivots;
   if (result.stands()) {
     result.forces = forces_of(*found.basis, packing.contact_count());
-    const ClosedContacts closed = closed_contacts(*found.basis, packing.contact_count());
-    result.sliding = closed.edges;
-    result.non_transmitting = closed.contacts;
   } else if (found.verdict == exact::Verdict::kEmpty) {
     result.motion = exact::on_bodies(packing, exact, found.basis->falling_motion(found.edge));
   } else if (found.verdict == exact::Verdict::kInconsistent) {

@@ -13,10 +13,8 @@ namespace indet {
 struct Standing {
   /// kOptimal: it does. kEmpty, kInconsistent: it does not. kUndecided.
   exact::Verdict verdict = exact::Verdict::kUndecided;
-  SceneForces forces;          ///< if it stands: a vertex of F
-  exact::BodyMotion motion;    ///< if it does not: a motion that nothing resists and under which the load works
-  int sliding = -1;            ///< of that vertex
-  int non_transmitting = -1;
+  SceneForces forces;        ///< if it stands: a vertex of F
+  exact::BodyMotion motion;  ///< if it does not: a motion that nothing resists and under which the load works
   int pivots = 0;
 
   bool stands() const { return verdict == exact::Verdict::kOptimal; }

@@ -49,7 +49,11 @@ class TiltCone {
       limits.largest = end_from(quarter, 1);
       if (limits.largest.outcome == LimitOutcome::kNoState) continue;
       limits.smallest = end_from(quarter, -1);
-      if (limits.largest.outcome == LimitOutcome::kNever) limits.smallest.outcome = LimitOutcome::kNever;
+      complete(limits.smallest, limits.largest, -1);
+      complete(limits.largest, limits.smallest, 1);
+      // A line of directions: the opposite one may be balanced, too.
+      limits.is_first_of_several =
+          limits.largest.outcome == LimitOutcome::kReached && limits.largest.lower <= limits.smallest.upper;
       return limits;
     }
     limits.largest = limits.smallest = at(0).find(1);
@@ -57,6 +61,14 @@ class TiltCone {
   }
 
  private:
+  /// Without an end one way there is none the other way.
+  static void complete(LimitEnd& end, const LimitEnd& other, int sign) {
+    if (other.outcome != LimitOutcome::kNever) return;
+    end = LimitEnd();
+    end.outcome = LimitOutcome::kNever;
+    end.value = end.lower = end.upper = sign * kInfinity;
+  }
+
   LoadLimitFinder& at(int quarter) {
     auto& slot = quarters_[quarter];
     if (!slot) {

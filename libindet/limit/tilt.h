@@ -9,8 +9,8 @@ namespace indet {
 /// acts stay as they are.
 struct TiltLimits {
   LimitEnd smallest, largest;
-  /// Loads or bounds that do not turn with gravity take part: then the angles that the packing stands at may
-  /// be several intervals, and this is the one around 0.
+  /// Loads or bounds that do not turn with gravity take part, or the angles are one single angle: then the
+  /// packing may stand at others, too, that do not join these.
   bool is_first_of_several = false;
 
   bool stands() const;
@@ -18,7 +18,8 @@ struct TiltLimits {
 
 /// With gravity as the only load, forces for gravity g cos θ + g⊥ sin θ exist for a convex cone of
 /// directions: t = tan θ is one linear program about each of four directions, θ = 0, ±90°, 180°, and where
-/// one of them has no end, the next one has it. The angles are an interval of at most 180°, or all.
+/// one of them has no end, the next one has it. The angles are an interval of at most 180°, or all, or two
+/// opposite ones (a smooth disk between two walls), of which one is found.
 ///
 /// With other loads, walls that push, or bounds, (cos θ, sin θ) must lie in a convex set C that is not a
 /// cone. The arc from one angle to a next one is in C if both are and the point where its tangents meet: such

@@ -77,8 +77,8 @@ class ArcFinder {
   bool is_enclosed() const { return outside_ - inside_ <= 2 * tolerance::kTilt; }
 
   enum class Side : std::uint8_t { kIn, kOut, kUndecided };
-  /// On which side of the boundary some gravity is: the set is convex, and it stands at `inside_`. `limit_` becomes
-  /// the point of the boundary on the way there.
+  /// On which side of the boundary some gravity is: the set is convex, and it stands at `inside_`. `limit_`
+  /// becomes the point of the boundary on the way there.
   Side side_of(const Vector2& gravity) {
     ++tests_;
     Packing here = packing_;
@@ -95,7 +95,7 @@ class ArcFinder {
 
   /// Moves `inside_` on by an arc that is in the set, or `outside_` to an angle at which it falls.
   void advance() {
-    double angle = std::min(outside_ - tolerance::kTilt, inside_ + kLongestArc);
+    double angle = std::min(outside_ - 1.5 * tolerance::kTilt, inside_ + kLongestArc);
     while (tests_ < kMostTests) {
       const Side side = side_of(gravity_at(angle));
       if (side == Side::kOut) return leave(angle);
@@ -120,9 +120,10 @@ class ArcFinder {
     const double amplitude = std::hypot(powers.along, across);
     if (!(std::abs(powers.rest) <= amplitude)) return;
     const double entry = std::atan2(across, powers.along) - std::acos(-powers.rest / amplitude);
-    const double crossing = entry + kTurn * std::ceil((inside_ - entry) / kTurn);
-    const double beyond = crossing + tolerance::kTilt;
-    if (!(crossing >= inside_ && beyond < angle) || side_of(gravity_at(beyond)) != Side::kOut) return;
+    // Rounding may put a crossing at `inside_` before it.
+    const double turns = std::ceil((inside_ - tolerance::kTilt - entry) / kTurn);
+    const double beyond = std::max(entry + kTurn * turns, inside_) + tolerance::kTilt;
+    if (!(beyond < angle) || side_of(gravity_at(beyond)) != Side::kOut) return;
     outside_ = beyond;
     boundary_ = limit_;
   }
@@ -138,20 +139,26 @@ class ArcFinder {
     end_.pivots = pivots;
     end_.outcome = is_enclosed() ? LimitOutcome::kReached : LimitOutcome::kUndecided;
     const double rounding = 16 * kRoundoff;
-    const double inside = sign_ * (inside_ - rounding);
+    const double inside = inside_ == 0 ? 0 : sign_ * (inside_ - rounding);
     const double outside = sign_ * (outside_ + rounding);
     end_.lower = std::min(inside, outside);
     end_.upper = std::max(inside, outside);
     end_.value = is_enclosed() ? (end_.lower + end_.upper) / 2 : kNaN;
+    if (!is_enclosed()) {
+      end_.forces = {};
+      end_.motion = {};
+      end_.sliding = end_.non_transmitting = end_.dim = -1;
+      end_.has_one_mechanism = false;
+    }
   }
 
   const Packing& packing_;
   int sign_;
   LimitOptions options_;
-  double inside_ = 0;             ///< it stands from 0 to this angle
-  double outside_ = kInfinity;    ///< it falls at this one
-  LimitEnd limit_;                ///< of the last test
-  LimitEnd boundary_;             ///< next to `outside_`
+  double inside_ = 0;           ///< it stands from 0 to this angle
+  double outside_ = kInfinity;  ///< it falls at this one
+  LimitEnd limit_;              ///< of the last test
+  LimitEnd boundary_;           ///< next to `outside_`
   LimitEnd end_;
   int tests_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -59,11 +60,12 @@ class EndCheck {
           end_.sliding == -1 && end_.non_transmitting == -1 && end_.dim == -1 && !end_.has_one_mechanism,
           "{}: it is not reached, and yet contacts are counted there", name_);
     switch (end_.outcome) {
-      case LimitOutcome::kReached:
-        check_state();
-        check_mechanism();
-        if (exact) check_exactly();
+      case LimitOutcome::kReached: {
+        const bool has_state = check_state();
+        const bool has_mechanism = check_mechanism();
+        if (exact && has_state && has_mechanism) check_exactly();
         return;
+      }
       case LimitOutcome::kNever:
         check_ray();
         return;
@@ -101,13 +103,13 @@ class EndCheck {
     return disks;
   }
 
-  void check_state() {
+  bool check_state() {
     compare_.require(end_.lower <= end_.value && end_.value <= end_.upper,
                      "{}: {} is not between its bounds {} and {}", name_, end_.value, end_.lower, end_.upper);
     compare_.require(end_.upper - end_.lower <= tolerance::kLimitWidth * std::max(1.0, std::abs(end_.value)),
                      "{}: its bounds {} and {} are too far apart", name_, end_.lower, end_.upper);
     if (!compare_.require(end_.forces.value().size() == 2 * packing_.contact_count(), "{}: no forces", name_))
-      return;
+      return false;
     const Packing there = at_end(packing_, limit_, end_);
     const RebuiltProblem problem(there);
     const Eigen::VectorXd forces = forces_of(problem.force_unit());
@@ -116,31 +118,28 @@ class EndCheck {
     compare_.require(worst <= tolerance::kResistedMotion * largest,
                      "{}: the state there misses balance or friction by {} mg", name_, worst);
     check_counts(problem, forces);
+    return true;
   }
 
   /// Strengths that are 0 exactly are 0 within rounding, too; others that are nearly 0 leave it open.
   void check_counts(const RebuiltProblem& problem, const Eigen::VectorXd& forces) {
     const double unit = problem.internal_unit();
-    int sliding = 0;
-    int non_transmitting = 0;
+    // The state of a limit of friction is not quite at the limit: there the counts are those of the
+    // tolerance.
     bool is_clear = true;
-    for (int contact = 0; contact < problem.contact_count(); ++contact) {
-      int closed = 0;
-      for (const int k : {0, 1}) {
-        const double slack = problem.slack(2 * contact + k, forces);
-        closed += slack <= tolerance::kSliding * unit ? 1 : 0;
-        is_clear = is_clear && (slack <= tolerance::kAgreement * unit || slack > tolerance::kSliding * unit);
-      }
-      if (!problem.has_friction(contact) && closed < 2) closed = 1;  // its second edge is not there
-      sliding += closed;
-      non_transmitting += closed == 2 ? 1 : 0;
+    for (int half_plane = 0; half_plane < 2 * problem.contact_count(); ++half_plane) {
+      const double slack = problem.slack(half_plane, forces);
+      is_clear =
+          is_clear && (slack <= tolerance::kAgreement * unit || slack > 2 * tolerance::kSliding * unit);
     }
-    is_clear = is_clear || limit_.kind == LimitKind::kFriction;  // whose state is not quite at the limit
-    const bool agrees = is_clear ? end_.sliding == sliding && end_.non_transmitting == non_transmitting
-                                 : end_.sliding <= sliding && end_.non_transmitting <= non_transmitting;
+    const auto count = problem.count_sliding(forces);
+    const bool agrees =
+        is_clear || limit_.kind == LimitKind::kFriction
+            ? end_.sliding == count.sliding && end_.non_transmitting == count.non_transmitting
+            : end_.sliding <= count.sliding && end_.non_transmitting <= count.non_transmitting;
     compare_.require(agrees,
                      "{}: {} sliding and {} non-transmitting contacts are stored, but there are {} and {}",
-                     name_, end_.sliding, end_.non_transmitting, sliding, non_transmitting);
+                     name_, end_.sliding, end_.non_transmitting, count.sliding, count.non_transmitting);
   }
 
   /// Power of the load along the motion of this end, as Σ of terms.
@@ -177,22 +176,22 @@ class EndCheck {
                             "{}: some contact resists the mechanism ({})", name_, resisted);
   }
 
-  void check_mechanism() {
+  bool check_mechanism() {
     if (limit_.kind == LimitKind::kFriction) return check_friction();
     const Packing rest = without(packing_, limit_.left_out);
-    if (!check_no_resistance(rest)) return;
+    if (!check_no_resistance(rest)) return false;
     if (limit_.kind == LimitKind::kLoad) {
       const RebuiltProblem::Sum own = power(rest);
       const RebuiltProblem::Sum change = change_power(rest, limit_.change);
-      if (!compare_.require(sign_ * change.value > 0, "{}: more of the load does no work along the mechanism",
-                            name_))
-        return;
+      if (!compare_.require(sign_ * change.value > tolerance::kResistedMotion * change.size,
+                            "{}: more of the load does no work along the mechanism", name_))
+        return false;
       const double error = tolerance::kResistedMotion * (own.size + std::abs(end_.value) * change.size) /
                            std::abs(change.value);
       compare_.require(std::abs(-own.value / change.value - end_.value) <= error,
                        "{}: {} is stored, but by its mechanism it is {}", name_, end_.value,
                        -own.value / change.value);
-      return;
+      return true;
     }
     // Along the mechanism gravity at angle θ has the power p cos θ + q sin θ + r.
     Loads across;
@@ -210,17 +209,21 @@ class EndCheck {
                      name_);
     compare_.require(std::abs(there) <= tolerance::kResistedMotion * (all.size + p.size + q.size),
                      "{}: at {} rad the load does work along the mechanism ({})", name_, end_.value, there);
+    return true;
   }
 
   /// With the friction just below, the load does work along a motion that nothing resists.
-  void check_friction() {
-    if (end_.value == 0 && limit_.is_attained) return;  // no friction is needed
+  bool check_friction() {
+    if (end_.value == 0 && limit_.is_attained)  // no friction is needed
+      return compare_.require(end_.motion.disks.rows() == 0,
+                              "{}: no friction is needed, yet there is a motion", name_);
     LimitEnd below = end_;
     below.value = end_.lower;
     const Packing there = at_end(packing_, limit_, below);
-    if (!check_no_resistance(there)) return;
+    if (!check_no_resistance(there)) return false;
     const RebuiltProblem::Sum load = power(there);
-    compare_.require(load.value > 0, "{}: the load does no work along the motion ({})", name_, load.value);
+    return compare_.require(load.value > 0, "{}: the load does no work along the motion ({})", name_,
+                            load.value);
   }
 
   RebuiltProblem::Sum change_power(const Packing& packing, const Loads& change) const {
@@ -244,6 +247,8 @@ class EndCheck {
                      end_.upper);
     compare_.require(end_.motion.disks.rows() == 0, "{}: never, yet there is a motion", name_);
     if (limit_.kind == LimitKind::kFriction) return;  // larger cones hold the smaller ones
+    if (limit_.smallest.outcome == limit_.largest.outcome)
+      compare_.leave_unchecked(fmt::format("that any value has a state ({})", limit_.load));
     if (limit_.kind == LimitKind::kTilt) {
       compare_.leave_unchecked(
           fmt::format("{} of {}: that it stands whichever way gravity points", name_, limit_.load));
@@ -276,7 +281,9 @@ class EndCheck {
     Packing rest = without(packing_, limit_.left_out);
     if (limit_.kind == LimitKind::kFriction) {
       if (sign_ > 0) return;  // of the smallest one
-      rest = with_friction(std::move(rest), limit_.scaled, end_.lower);
+      // Where it is proven for any friction, equations contradict each other, and no contact moves at all.
+      const double factor = std::isinf(end_.lower) ? 0x1p60 : end_.lower;
+      rest = with_friction(std::move(rest), limit_.scaled, factor);
     }
     if (!check_no_resistance(rest)) return;
     const RebuiltProblem::Sum own = power(rest);
@@ -292,15 +299,22 @@ class EndCheck {
   }
 
   void check_exactly() {
+    if (limit_.smallest.value == limit_.largest.value)
+      return compare_.leave_unchecked(
+          fmt::format("{}: by exact arithmetic (it stands at one value alone)", limit_.load));
     // The load there is rounded in each of its numbers.
     const double step =
-        16 * kRoundoff * std::max(std::abs(end_.value), limit_.kind == LimitKind::kTilt ? 1.0 : 0.0);
+        limit_.kind == LimitKind::kFriction
+            ? 0
+            : 16 * kRoundoff * std::max(std::abs(end_.value), limit_.kind == LimitKind::kTilt ? 1.0 : 0.0);
     LimitEnd inside = end_;
     inside.value = (sign_ > 0 ? end_.lower : end_.upper) - sign_ * step;
     LimitEnd outside = end_;
     outside.value = (sign_ > 0 ? end_.upper : end_.lower) + sign_ * step;
+    if (end_.value == 0) inside.value = 0;  // nothing is rounded
     compare_.require(stands(at_end(packing_, limit_, inside)), "{}: exact arithmetic finds no state at {}",
                      name_, inside.value);
+    if (limit_.kind == LimitKind::kFriction && end_.upper == 0) return;
     const Packing beyond = at_end(packing_, limit_, outside);
     const exact::ContactProblem problem(beyond);
     compare_.require(
@@ -327,6 +341,21 @@ class EndCheck {
   Comparisons& compare_;
 };
 
+/// Angles of an interval about 0 are at most a whole turn from it, and those of a cone half a turn apart.
+void check_angles(const Limit& limit, Comparisons& compare) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kRounding = 1e-12;
+  for (const LimitEnd* end : {&limit.smallest, &limit.largest}) {
+    compare.require(!(std::abs(end->value) > kTurn + kRounding) || std::isinf(end->value),
+                    "{}: {} rad is more than a turn", limit.load, end->value);
+  }
+  const double width = limit.largest.value - limit.smallest.value;
+  compare.require(limit.is_first_of_several || !std::isfinite(width) || width <= kTurn / 2 + kRounding,
+                  "{}: {} rad from end to end is more than half a turn", limit.load, width);
+  if (limit.is_first_of_several)
+    compare.leave_unchecked(fmt::format("that it stands at all angles from end to end ({})", limit.load));
+}
+
 }  // namespace
 
 Verification verify_limits(const Packing& packing, const std::vector<Limit>& limits, bool exact) {
@@ -338,7 +367,13 @@ Verification verify_limits(const Packing& packing, const std::vector<Limit>& lim
                     "{}: one end says that there is no state, the other one does not", limit.load);
     compare.require(!(limit.smallest.lower > limit.largest.upper), "{}: the ends are in the wrong order",
                     limit.load);
-    const bool turns = limit.kind != LimitKind::kTilt || is_under_gravity_alone(packing);
+    const bool turns =
+        limit.kind != LimitKind::kTilt || (is_under_gravity_alone(without(packing, limit.left_out)) &&
+                                           !(limit.largest.lower <= limit.smallest.upper));
+    if (limit.kind == LimitKind::kTilt) check_angles(limit, compare);
+    if (!compare.require(limit.kind == LimitKind::kTilt || limit.left_out.empty(),
+                         "{}: left_out is for tilts alone", limit.load))
+      continue;
     compare.require(limit.is_first_of_several == !turns, "{}: first_of_several is {}", limit.load,
                     limit.is_first_of_several);
     for (const bool is_largest : {false, true}) EndCheck(packing, limit, is_largest, compare).check(exact);

@@ -53,7 +53,14 @@ class Limits(program.ProgramTest):
         # Held up by as much as it weighs.
         self.assertEqual((load["smallest"], load["largest"], load["status"]), (1, 1, "does not stand"))
         self.assertEqual(friction["status"], "no state")
+        self.run_indet("verify", "--exact", "p.limits.h5")
         self.assertEqual(friction["at_smallest"]["moving_disks"], [0])
+
+    def test_no_friction_is_needed(self):
+        friction, = self.limits(self.packing(program.groove(0.4)), "--friction")
+        self.assertEqual((friction["smallest"], friction["status"]), (0, "stands"))
+        self.assertIn("no friction is needed", self.run_indet("inspect", "p.limits.h5").stdout)
+        self.run_indet("verify", "--exact", "p.limits.h5")
 
     def test_friction_of_a_pyramid(self):
         packing = self.packing(program.pyramid(0.5))

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/limit/bracket.h"
+#include "tests/support/scene_builder.h"
 #include "tests/support/zoo.h"
 
 namespace indet {
@@ -72,6 +73,19 @@ TEST(FrictionLimit, OfPilesIsWhereTheyFallByExactArithmetic) {
     ++reached;
   }
   EXPECT_GE(reached, 3);
+}
+
+TEST(FrictionLimit, WhereSomeContactsTransmitNothingWhateverTheFriction) {
+  // A disk that touches floor and wall with μ < 1 does not press on the wall: with any friction some edges
+  // are closed. Beside it a pyramid that needs friction.
+  Packing packing = zoo::pyramid(0.6, 0.5, 0.5);
+  const WallId wall = zoo::add_wall(packing, {50, 0}, {-1, 0});
+  const DiskId disk = zoo::add_disk(packing, {49, packing.disks[0].position.y()});
+  zoo::touch(packing, disk, packing.contacts[2].b, 0.3);
+  zoo::touch(packing, disk, Body::wall(wall), 0.3);
+  const FrictionLimit limit = find_friction_limit(packing, all(packing));
+  EXPECT_NEAR(limit.infimum.value, std::tan(0.3) / 0.5, 1e-11);
+  EXPECT_EQ(limit.infimum.outcome, LimitOutcome::kReached);
 }
 
 TEST(FrictionLimit, OfDegeneratePilesIsWhereTheyFallByExactArithmetic) {

@@ -58,6 +58,15 @@ TEST(LoadLimits, OfWhatCannotStandAsItIs) {
   EXPECT_EQ(none.largest.motion.disks.rows(), 1);
 }
 
+TEST(LoadLimits, NoStateAtAllIsNotNever) {
+  // Nothing takes the horizontal load, however small it is, though any weight is borne.
+  Packing packing = zoo::disk_on_floor(0);
+  packing.disks[0].load.x() = 1e-13;
+  const LoadLimits limits = find_load_limits(packing, on_disk(packing, 0, {0, -1, 0}));
+  EXPECT_EQ(limits.largest.outcome, LimitOutcome::kNoState);
+  EXPECT_EQ(limits.smallest.outcome, LimitOutcome::kNoState);
+}
+
 TEST(LoadLimits, ShearOfAFrictionlessTriangularLatticeAtFixedPressure) {
   // Σ f l lᵀ over bonds along 0°, 60°, 120°: σ_yy ∝ ¾ (f_60 + f_120), σ_xy ∝ ¼√3 (f_60 − f_120), so that
   // σ_xy ≤ σ_yy / √3, with σ_xx = f_0 + σ_yy / 3.
