@@ -77,16 +77,16 @@ struct ContactEnds {
 /// Columns: for each contact R, T (kStick), the strength along its edge (kSlide…, kFrictionless), or nothing
 /// (kOpen); then the slacks s of bounds:   matrix · u = b,   F = expand(u) = (R_1, T_1, …, R_M, T_M).
 struct EquilibriumProblem {
-  Eigen::SparseMatrix<double> matrix;    ///< A: equations × unknowns
+  Eigen::SparseMatrix<double> matrix;  ///< A: equations × unknowns
   /// Equations × (1 + changes): b of what acts, then b_1, … of changes of it, A F = b + Σ λ_k b_k.
   Eigen::MatrixXd right_hand_sides;
-  std::vector<EquilibriumRow> rows;      ///< what each equation is
-  std::vector<ContactMode> modes;        ///< M
-  std::vector<ContactEnds> contacts;     ///< M
-  std::vector<BoundRow> bounds;          ///< of force_bounds(packing), in its order
-  std::vector<Edge> edges;               ///< unknowns (there are as many edges as unknowns)
-  Eigen::SparseMatrix<double> to_edges;  ///< unknowns × unknowns, block diagonal: x = to_edges · u;
-                                         ///< F ∈ K ⇔ x ≥ 0
+  std::vector<EquilibriumRow> rows;         ///< what each equation is
+  std::vector<ContactMode> modes;           ///< M
+  std::vector<ContactEnds> contacts;        ///< M
+  std::vector<BoundRow> bounds;             ///< of force_bounds(packing), in its order
+  std::vector<Edge> edges;                  ///< unknowns (there are as many edges as unknowns)
+  Eigen::SparseMatrix<double> to_edges;     ///< unknowns × unknowns, block diagonal: x = to_edges · u;
+                                            ///< F ∈ K ⇔ x ≥ 0
   Eigen::SparseMatrix<double> edge_matrix;  ///< A on edges: equations × unknowns, edge_matrix · x = b
   Eigen::SparseMatrix<double> edge_forces;  ///< 2M × unknowns: F = edge_forces · x
   ForceUnits units;                         ///< from the internal unit to others
@@ -121,8 +121,8 @@ struct EquilibriumProblem {
 };
 
 /// Builds the problem. `changes`: of the loads; each has a right-hand side, and the equations are those that
-/// any of the loads needs. Preconditions: find_defect(packing) is empty; modes.size() = M; defect_of() of each
-/// change is.
+/// any of the loads needs. Preconditions: find_defect(packing) is empty; modes.size() = M; defect_of() of
+/// each change is.
 EquilibriumProblem pose_equilibrium(const Packing& packing, std::span<const ContactMode> modes,
                                     std::span<const Loads> changes = {});
 /// With every contact as the scene has it.

@@ -21,8 +21,8 @@ const char* to_string(LimitOutcome outcome);
 
 /// One end of the λ for which A F = b + λ b_1 has a solution in K and within the bounds (scene units).
 ///
-/// At a limit the load under which the packing stands and the motion that it cannot resist prove each other: F
-/// is a state at λ = value, and y a motion with
+/// At a limit the load under which the packing stands and the motion that it cannot resist prove each other:
+/// F is a state at λ = value, and y a motion with
 ///
 ///   y · A_k ≥ 0 for every edge k,   ± y · b_1 = −1,   ± y · b = value
 ///

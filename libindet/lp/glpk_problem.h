@@ -69,7 +69,7 @@ class GlpkProblem {
   /// Runs the simplex method from the present basis, freshly factorised unless keep_factors is set: the
   /// result then depends on problem and basis alone. Throws GlpkAborted.
   Result solve(const Settings& settings);
-  std::int64_t pivots() const;     ///< of the last solve
+  std::int64_t pivots() const;            ///< of the last solve
   double column_value(int column) const;  ///< GLPK's own number, at the basis: a hint
   double objective_value() const;  ///< GLPK's own number, which benchmarks compare with what is recomputed
 
