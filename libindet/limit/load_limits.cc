@@ -102,10 +102,13 @@ struct LoadLimitFinder::Impl {
     const Goal goal = Goal::of_strengths({{exact_.rise(), 1.0 * sign}, {exact_.fall(), -1.0 * sign}});
     const Optimum found = exact::maximise(exact_, basis, goal, options_.most_pivots);
     end.pivots += found.pivots;
-    if (found.verdict == Verdict::kOptimal)
+    if (found.verdict == Verdict::kOptimal) {
       describe(found, goal, sign, end);
-    else
+    } else if (found.verdict == Verdict::kUnbounded) {
+      if (prove_some_state(answer, end)) prove_never(sign, end);
+    } else {
       describe_fall(found, end);
+    }
   }
 
   void describe(const Optimum& found, const Goal& goal, int sign, LimitEnd& end) const {

@@ -303,15 +303,11 @@ class EndCheck {
       return compare_.leave_unchecked(
           fmt::format("{}: by exact arithmetic (it stands at one value alone)", limit_.load));
     // The load there is rounded in each of its numbers.
-    const double step =
-        limit_.kind == LimitKind::kFriction
-            ? 0
-            : 16 * kRoundoff * std::max(std::abs(end_.value), limit_.kind == LimitKind::kTilt ? 1.0 : 0.0);
+    const double step = 16 * kRoundoff * rounded_size();
     LimitEnd inside = end_;
     inside.value = (sign_ > 0 ? end_.lower : end_.upper) - sign_ * step;
     LimitEnd outside = end_;
     outside.value = (sign_ > 0 ? end_.upper : end_.lower) + sign_ * step;
-    if (end_.value == 0) inside.value = 0;  // nothing is rounded
     compare_.require(stands(at_end(packing_, limit_, inside)), "{}: exact arithmetic finds no state at {}",
                      name_, inside.value);
     if (limit_.kind == LimitKind::kFriction && end_.upper == 0) return;
@@ -320,6 +316,19 @@ class EndCheck {
     compare_.require(
         exact::proves_emptiness(problem, exact::on_rows(beyond, problem, end_.motion), tolerance::kExactZero),
         "{}: exact arithmetic does not prove that it falls at {}", name_, outside.value);
+  }
+
+  /// A change of the value by a rounding of this is one of the load by a rounding of its largest part.
+  double rounded_size() const {
+    if (limit_.kind == LimitKind::kFriction) return 0;
+    if (limit_.kind == LimitKind::kTilt) return std::max(1.0, std::abs(end_.value));
+    const Packing rest = without(packing_, limit_.left_out);
+    const RebuiltProblem own(rest);
+    const Packing alone = under_alone(rest, limit_.change);
+    const RebuiltProblem change(alone);
+    const double largest_own = own.wrench().lpNorm<Eigen::Infinity>() * own.force_unit();
+    const double largest_change = change.wrench().lpNorm<Eigen::Infinity>() * change.force_unit();
+    return std::abs(end_.value) + (largest_own > 0 ? largest_own / largest_change : 1);
   }
 
   bool stands(const Packing& packing) const {
@@ -340,6 +349,11 @@ class EndCheck {
   std::string name_;
   Comparisons& compare_;
 };
+
+/// Both ends are the same, as far as is proven.
+bool is_one_value(const Limit& limit) {
+  return limit.largest.outcome == LimitOutcome::kReached && limit.largest.lower <= limit.smallest.upper;
+}
 
 /// Angles of an interval about 0 are at most a whole turn from it, and those of a cone half a turn apart.
 void check_angles(const Limit& limit, Comparisons& compare) {
@@ -367,9 +381,8 @@ Verification verify_limits(const Packing& packing, const std::vector<Limit>& lim
                     "{}: one end says that there is no state, the other one does not", limit.load);
     compare.require(!(limit.smallest.lower > limit.largest.upper), "{}: the ends are in the wrong order",
                     limit.load);
-    const bool turns =
-        limit.kind != LimitKind::kTilt || (is_under_gravity_alone(without(packing, limit.left_out)) &&
-                                           !(limit.largest.lower <= limit.smallest.upper));
+    const bool turns = limit.kind != LimitKind::kTilt ||
+                       (is_under_gravity_alone(without(packing, limit.left_out)) && !is_one_value(limit));
     if (limit.kind == LimitKind::kTilt) check_angles(limit, compare);
     if (!compare.require(limit.kind == LimitKind::kTilt || limit.left_out.empty(),
                          "{}: left_out is for tilts alone", limit.load))

@@ -112,6 +112,23 @@ class Limits(program.ProgramTest):
         done = self.run_indet("export", "p.limits.h5", "--style", "yield-curve", status=3)
         self.assertIn("--map", done.stderr)
 
+    def test_a_limit_at_nothing(self):
+        # A smooth disk between floor and wall can be pushed towards the wall alone.
+        scene = program.groove()
+        scene["walls.csv"] = "id,px,py,nx,ny,name\n0,0,-1,0,1,floor\n1,-1,0,1,0,left\n"
+        scene["scene.toml"] = "gravity = [0, -1]\nmu = 0\n"
+        load, tilt = reversed(self.limits(self.packing(scene), "--tilt", "--load", "disk=0,1,0"))
+        self.assertEqual((load["smallest"], load["largest"], load["status"]), ("-inf", 0, "stands"))
+        self.assertEqual((tilt["largest"], tilt["status"]), (0, "stands"))
+        self.assertIn(" 0 contradictions", self.run_indet("verify", "--exact", "p.limits.h5").stdout)
+
+    def test_a_disk_that_touches_nothing(self):
+        scene = program.groove()
+        scene["disks.csv"] += "1,9,9,1,1\n"
+        limits = self.limits(self.packing(scene), "--tilt", "--load", "disk=0,0,1", "--friction", status=4)
+        self.assertEqual([limit["status"] for limit in limits], ["no state"] * 3)
+        self.run_indet("verify", "--exact", "p.limits.h5")
+
     def test_a_loose_disk_is_left_out_and_named(self):
         scene = program.groove(0.4)
         scene["disks.csv"] += "7,20,1,1,1\n"
