@@ -135,6 +135,13 @@ std::string span_text(const Extremes& e, const char* unit) {
   return fmt::format("{:.4g} … {:.4g}{}, mean {:.4g}", e.low, e.high, unit, e.mean());
 }
 
+/// Where the unit of force comes from.
+const char* describe_unit(const Packing& packing) {
+  if (packing.named_force_unit > 0) return "";
+  if (packing.has_weight()) return " = mg";
+  return packing.largest_load() > 0 ? ", the largest load" : "";
+}
+
 void print_packing(const FileContents& contents) {
   const Packing& packing = contents.packing;
   const double unit = packing.force_unit();
@@ -172,9 +179,8 @@ void print_packing(const FileContents& contents) {
   if (packing.origin.width > 0 && packing.origin.height > 0) {
     print_line("  made in", fmt::format("Lx = {:g}, Ly = {:g}", packing.origin.width, packing.origin.height));
   }
-  print_line("  gravity",
-             fmt::format("({:g}, {:g}); the unit of force is {:.6g}{}", packing.gravity.x(),
-                         packing.gravity.y(), unit, packing.named_force_unit > 0 ? "" : " = mg"));
+  print_line("  gravity", fmt::format("({:g}, {:g}); the unit of force is {:.6g}{}", packing.gravity.x(),
+                                      packing.gravity.y(), unit, describe_unit(packing)));
   const BalanceReport& balance = contents.balance;
   if (!balance.any_known()) {
     print_line("  simulated forces", "unknown");

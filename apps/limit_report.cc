@@ -202,7 +202,7 @@ void print_limits(const Packing& packing, const std::vector<Limit>& limits) {
   if (has_mechanism)
     say("motions are those of associated sliding: a contact that slides opens by μ times as much. A real "
         "packing\n"
-        "may yield before these limits, never after.\n");
+        "may yield before these limits are reached.\n");
 }
 
 nlohmann::json limits_to_json(const Packing& packing, const std::vector<Limit>& limits) {

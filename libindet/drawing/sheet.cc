@@ -33,7 +33,9 @@ std::vector<Vector2> clip(const std::vector<Vector2>& polygon, const Wall& wall)
 
 }  // namespace
 
-std::string unit_name(const Packing& packing) { return packing.named_force_unit > 0 ? "force units" : "mg"; }
+std::string unit_name(const Packing& packing) {
+  return packing.named_force_unit > 0 || !packing.has_weight() ? "force units" : "mg";
+}
 
 Sheet::Sheet(const std::filesystem::path& path, const Packing& packing, const std::string& caption,
              const std::function<std::vector<LegendItem>(const Sheet&)>& legend, double bar_height)

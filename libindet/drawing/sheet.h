@@ -13,7 +13,7 @@
 
 namespace indet {
 
-/// The unit of forces in a picture: "mg", or "force units" where the scene names one.
+/// The unit of forces in a picture: "mg", or "force units" where the scene names one or nothing has weight.
 std::string unit_name(const Packing& packing);
 
 /// The page of a packing: where its things are, and what stands below them. From the top: the picture, the

@@ -40,22 +40,20 @@ double Packing::force_unit() const {
   double mass = 0;
   for (const Disk& disk : disks) mass += disk.fixed ? 0 : disk.mass / count;
   const double weight = gravity.stableNorm() * mass;
-  if (!(weight > 0)) {
-    const double natural = stress.largest() * 2 * max_radius();
-    if (natural > 0) {
-      throw InputError(fmt::format(
-          "the scene has no gravity, so it must name its unit of force (force_unit in scene.toml); "
-          "its stress times the largest diameter is {:.3g}",
-          natural));
-    }
-    throw InputError(
-        "the scene has no gravity, so it must name its unit of force (force_unit in scene.toml)");
-  }
-  return weight;
+  if (weight > 0) return weight;
+  if (const double load = largest_load(); load > 0) return load;
+  double known = 0;
+  for (const Contact& contact : contacts)
+    known = std::fmax(known, std::fmax(std::abs(contact.R), std::abs(contact.T)));
+  return known > 0 ? known : 1;
 }
 
-double Packing::internal_force_unit() const {
-  const double unit = force_unit();
+bool Packing::has_weight() const {
+  return !gravity.isZero(0) && std::any_of(disks.begin(), disks.end(),
+                                           [](const Disk& disk) { return !disk.fixed && disk.mass > 0; });
+}
+
+double Packing::largest_load() const {
   double largest = 0;
   for (int i = 0; i < disk_count(); ++i) {
     Vector3 load = wrench(DiskId(i));
@@ -66,7 +64,12 @@ double Packing::internal_force_unit() const {
     if (wall.is_free_along_normal()) largest = std::max(largest, std::abs(wall.load_n));
     if (wall.is_free_along_tangent()) largest = std::max(largest, std::abs(wall.load_t));
   }
-  largest = std::max(largest, stress.largest() * 2 * max_radius());
+  return std::max(largest, stress.largest() * 2 * max_radius());
+}
+
+double Packing::internal_force_unit() const {
+  const double unit = force_unit();
+  const double largest = largest_load();
   constexpr double kFar = 1000;
   if (largest == 0 || (largest < kFar * unit && unit < kFar * largest)) return unit;
   return std::exp2(std::round(std::log2(largest)));

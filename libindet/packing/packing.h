@@ -149,18 +149,22 @@ struct Packing {
   int contact_count() const { return static_cast<int>(contacts.size()); }
 
   /// The unit in which forces are computed and printed: the named one, else the mean weight |g| Σm/N of
-  /// the free disks ("mg" in the paper). 1 for a packing without free disks. Throws InputError if there is
-  /// neither gravity nor a named unit; where stress is imposed it proposes that times a diameter.
+  /// the free disks ("mg" in the paper), else, where nothing has weight, the largest load, else the largest
+  /// known force, else 1. 1 for a packing without free disks.
   double force_unit() const;
+  bool has_weight() const;  ///< of some free disk
+  /// The largest part of what acts on a free disk (torques over the radius) or a loaded wall, or the largest
+  /// stress times the largest diameter.
+  double largest_load() const;
 
   /// The unit in which the equilibrium problem is solved and residuals are judged. force_unit(), unless that
   /// says little about the scene: where the largest load on a disk or wall, or stress times the largest
   /// diameter, is more than 1000 times larger or smaller, the power of two next to it. Tolerances then mean
   /// the same whatever unit a scene names. (Narrow bounds of forces make the problem's unit finer:
-  /// bound_rows.h.) Throws like force_unit().
+  /// bound_rows.h.)
   double internal_force_unit() const;
 
-  /// Between both and the scene's own unit. Throws like force_unit().
+  /// Between both and the scene's own unit.
   ForceUnits force_units() const { return {force_unit(), internal_force_unit()}; }
 
   /// Radius of the largest disk, the unit of length (1 for a packing without disks).

@@ -273,18 +273,15 @@ std::optional<Defect> find_defect(const Packing& packing) {
                     fmt::format("this contact is given twice: it is also contact {}", earlier->second)};
     }
   }
-  try {
-    const double unit = packing.force_unit();
-    // Their squares are to be numbers.
-    constexpr double kLeastUnit = 1e-150;
-    constexpr double kMostUnit = 1e150;
-    if (!(unit >= kLeastUnit && unit <= kMostUnit))
-      return scene(
-          fmt::format("the unit of force has to be from {} to {}, but is {}; other units of mass, "
-                      "length or time bring it there",
-                      kLeastUnit, kMostUnit, unit));
-  } catch (const InputError& error) {
-    return scene(error.what());
+  const double unit = packing.force_unit();
+  // Their squares are to be numbers.
+  constexpr double kLeastUnit = 1e-150;
+  constexpr double kMostUnit = 1e150;
+  if (!(unit >= kLeastUnit && unit <= kMostUnit)) {
+    return scene(
+        fmt::format("the unit of force has to be from {} to {}, but is {}; other units of mass, "
+                    "length or time bring it there",
+                    kLeastUnit, kMostUnit, unit));
   }
   return {};
 }

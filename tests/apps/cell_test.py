@@ -291,7 +291,6 @@ class Cell(program.ProgramTest):
                 ("scene.toml", toml + "yx = 1\n", "scene.toml:11: yx of the stress is unknown"),
                 ("scene.toml", toml.replace("xx = 1", "xx = inf"), "scene.toml:8: xx must be finite"),
                 ("scene.toml", toml.replace("a = [2, 0]\n", ""), "scene.toml:6: stress: a stress needs a cell that is periodic in both"),
-                ("scene.toml", toml.replace("force_unit = 1\n", ""), "scene.toml: the scene has no gravity, so it must name its unit of force (force_unit in scene.toml); its stress times the largest diameter is 1"),
                 ("walls.csv", walls, "walls.csv:2: a scene that is periodic in both directions has no walls"),
                 ("disks.csv", disks.replace("mass\n", "mass,fixed\n").replace("0.5,1\n", "0.5,1,1\n"), "scene.toml:7: stress: a stress cannot be imposed on a cell with fixed disks"),
                 ("disks.csv", disks.replace("mass\n", "mass,fx\n").replace("0.5,1\n", "0.5,1,1\n"), "disks.csv: in a cell that is periodic in both directions nothing takes the loads of disks"),

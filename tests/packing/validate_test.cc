@@ -148,6 +148,21 @@ TEST(Packing, ForceUnitIsTheMeanWeight) {
   EXPECT_DOUBLE_EQ(packing.force_unit(), 5);
 }
 
+TEST(Packing, ForceUnitWithoutWeightIsTheLargestLoad) {
+  Packing packing = two_disks();
+  packing.gravity.setZero();
+  EXPECT_FALSE(packing.has_weight());
+  EXPECT_EQ(packing.force_unit(), 1);
+  packing.contacts[0].R = 0.25;
+  packing.contacts[0].T = -0.5;
+  EXPECT_EQ(packing.force_unit(), 0.5);
+  packing.disks[1].load = {-3, 1, 0};
+  EXPECT_EQ(packing.force_unit(), 3);
+  EXPECT_EQ(packing.internal_force_unit(), 3);
+  packing.disks[1].fixed = true;  // what acts on it has no part
+  EXPECT_EQ(packing.force_unit(), 0.5);
+}
+
 TEST(Validate, TheUnitOfForceHasASquare) {
   for (const double unit : {1e-320, 1e-151, 1e151}) {
     Packing packing = two_disks();
