@@ -229,7 +229,6 @@ const std::vector<BadScene> kBadScenes = {
     {"GravityScalar", "scene.toml", "gravity = -1\n", "scene.toml:1: gravity must be a list of two numbers"},
     {"GravityText", "scene.toml", "gravity = [0, \"down\"]\n", "scene.toml:1: gravity must be a number"},
     {"GravityNan", "scene.toml", "gravity = [0, nan]\n", "scene.toml:1: gravity must be finite"},
-    {"NoForceUnit", "scene.toml", "gravity = [0, 0]\n", "scene.toml: the scene has no gravity"},
     {"NegativeForceUnit", "scene.toml", "force_unit = -1\n", "scene.toml:1: force_unit must be positive"},
     {"NegativeDefaultFriction", "scene.toml", "\nmu = -1\n", "scene.toml:2: mu must not be negative"},
 };

@@ -51,7 +51,7 @@ class Import(CommandTest):
                 ("disks_csv", DISKS + "2,4,5,1,1,1\n", "scene/disks.csv:4: 6 fields, but there are 5 columns (id, x, y, "
                                                       "radius, mass); decimal commas are read only where semicolons"),
                 ("disks_csv", "sep=|\n" + DISKS, "scene/disks.csv:1: fields are separated by commas, semicolons or tabs"),
-                ("scene_toml", "gravity = [0, 0]\n", "scene/scene.toml: the scene has no gravity"),
+                ("scene_toml", "gravity = [0, 0]\n", "gravity: --gravity 0,-1, which most disks want instead of 0,0"),
         ]:
             with self.subTest(message):
                 self.write_scene(**{part: text})

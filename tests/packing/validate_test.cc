@@ -116,11 +116,6 @@ INSTANTIATE_TEST_SUITE_P(
                    },
                    PackingPart::kContact, 2, "disk 1 and disk 0 overlap by 1.25, more than the diameter 1 of the "
                                              "smaller one"},
-        BadPacking{"NoForceUnit",
-                   [](Packing& p) {
-                     p.gravity = {0, 0};
-                   },
-                   PackingPart::kScene, -1, "unit of force"},
         BadPacking{"InfiniteForce", [](Packing& p) { p.contacts[0].R = kInf; }, PackingPart::kContact, 0,
                    "finite or unknown"},
         BadPacking{"NoLever", [](Packing& p) { p.contacts[2].lever_b = 0; }, PackingPart::kContact, 2,
