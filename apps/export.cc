@@ -79,10 +79,10 @@ struct ChosenLimit {
   const LimitEnd& end() const { return is_largest ? limit.largest : limit.smallest; }
   std::string description() const {
     if (end().outcome != LimitOutcome::kReached)
-      return fmt::format("{} {}: {}", limit.load, is_largest ? "largest" : "smallest",
+      return fmt::format("{} {}: {}", limit.name, is_largest ? "largest" : "smallest",
                          to_string(end().outcome));
     const bool is_angle = limit.kind == LimitKind::kTilt;
-    return fmt::format("{} of {:.5g}{}", limit.load,
+    return fmt::format("{} of {:.5g}{}", limit.name,
                        is_angle ? end().value * 180 / std::numbers::pi : end().value, is_angle ? "°" : "");
   }
 };

@@ -91,6 +91,8 @@ int run(const LimitCommand& options, const Context& context) {
     throw InputError(fmt::format("{}: --tilt turns gravity, and there is none", options.packing));
   std::vector<Loads> changes;
   for (const std::string& text : options.loads) changes.push_back(parse_load(text, packing));
+  if (options.map > 0 && are_parallel(changes[0], changes[1]))
+    throw InputError("--map: one of the two loads is a multiple of the other, so that they span no plane");
 
   Provenance provenance;
   provenance.arguments = context.arguments;

@@ -92,7 +92,7 @@ std::string counted_scaled(const Limit& limit) {
 }
 
 void print_friction(const Packing& packing, const Limit& limit) {
-  say("{}: the least factor of the coefficients of friction of {} contacts\n", limit.load,
+  say("{}: the least factor of the coefficients of friction of {} contacts\n", limit.name,
       counted_scaled(limit));
   const LimitEnd& end = limit.smallest;
   if (end.outcome == LimitOutcome::kNoState) {
@@ -120,9 +120,9 @@ void print_limit(const Packing& whole, const Limit& limit) {
   if (limit.kind == LimitKind::kTilt)
     say("tilt: gravity turned counter-clockwise\n");
   else
-    say("load {}: a multiple of it acts, too\n", limit.load);
+    say("load {}: a multiple of it acts, too\n", limit.name);
   for (const DiskId disk : limit.left_out)
-    say("  without disk {}, which carries no other and rolls away first\n", whole[disk].id);
+    say("  without disk {}, which moves first, alone, and without which it stands\n", whole[disk].id);
   if (limit.largest.outcome == LimitOutcome::kNoState) {
     say("  no contact forces balance it{}\n",
         limit.kind == LimitKind::kTilt
@@ -131,7 +131,7 @@ void print_limit(const Packing& whole, const Limit& limit) {
     say("            {}\n", disks_text(packing, moving_disks(limit.largest.motion)));
     return;
   }
-  if (limit.is_decided() && !limit.stands()) say("  it cannot stand as it is, only between these\n");
+  if (limit.falls()) say("  it cannot stand as it is, only between these\n");
   print_end(whole, limit, limit.smallest, false);
   print_end(whole, limit, limit.largest, true);
   if (limit.is_first_of_several)
@@ -209,7 +209,7 @@ nlohmann::json limits_to_json(const Packing& packing, const std::vector<Limit>& 
   nlohmann::json list = nlohmann::json::array();
   for (const Limit& limit : limits) {
     nlohmann::json json = {
-        {"load", limit.load},
+        {"load", limit.name},
         {"unit", limit.kind == LimitKind::kTilt ? "rad" : "1"},
         {"smallest", json_number(limit.smallest.value)},
         {"largest", json_number(limit.largest.value)},

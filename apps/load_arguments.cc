@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +14,7 @@
 
 #include "apps/command.h"
 #include "libindet/base/error.h"
+#include "libindet/io/table.h"
 
 namespace indet::app {
 namespace {
@@ -32,6 +32,7 @@ std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+  if (text.empty() || text.back() == at) parts.emplace_back();
   return parts;
 }
 
@@ -95,8 +96,7 @@ std::vector<std::string> parts_of(const std::string& text) {
 
 double number(const std::string& text, const std::string& word) {
   double value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(value))
+  if (!parse_number(word, &value) || !std::isfinite(value))
     refuse(text, fmt::format("\"{}\" is not a finite number; {}", word, kSyntax));
   return value;
 }
@@ -116,9 +116,8 @@ void add_part(const std::string& text, const std::string& part, LoadBuilder& loa
   };
   if (kind == "disk") {
     const auto f = numbers_from(1, {2, 3});
-    std::int32_t id = 0;
-    const auto [stop, error] = std::from_chars(words[0].data(), words[0].data() + words[0].size(), id);
-    if (error != std::errc() || stop != words[0].data() + words[0].size())
+    std::int64_t id = 0;
+    if (!parse_number(words[0], &id))
       refuse(text, fmt::format("\"{}\" is not the number of a disk", words[0]));
     loads.add_to_disk(id, {f[0], f[1], f.size() > 2 ? f[2] : 0});
   } else if (kind == "wall") {

@@ -527,6 +527,18 @@ inline constexpr double kLimitWidth = 1e-8;
 /// Under a motion with largest entry 1, a contact whose surfaces part, or slide, by less than this rests.
 inline constexpr double kRestingRate = 1e-9;
 
+/// Two loads whose directions, as unit vectors of all their numbers, differ by less than this are parallel.
+inline constexpr double kParallelLoads = 1e-9;
+
+/// The least strength that all edges of a relaxed problem can have (in the problem's unit) tells by its sign
+/// whether the packing stands if its magnitude is above this, and the friction is multiplied by no more
+/// than kFarFactor and no less than its inverse; else exact arithmetic tells. Workable: 1e-11 … 1e-6.
+inline constexpr double kClearMargin = 1e-9;
+inline constexpr double kFarFactor = 64;
+/// Factors of friction that are looked at are at most the first and at least the second.
+inline constexpr double kLargestFactor = 0x1p30;
+inline constexpr double kSmallestFactor = 0x1p-40;
+
 /// The infimum of the friction factor is enclosed to this, relative to it. Workable: 1e-14 … 1e-6.
 inline constexpr double kFrictionFactor = 1e-12;
 

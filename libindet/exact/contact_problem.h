@@ -32,8 +32,9 @@ namespace indet::exact {
 /// /extremal/active, each of which is "this edge has strength 0". Edges 2M, 2M + 1, … are the slacks s.
 ///
 /// With a change w_1 of the load, which is w + λ w_1 then, the last two edges are the parts of λ = λ₊ − λ₋,
-/// both ≥ 0, with the columns w_1 and −w_1: no basis holds both. Relaxed, λ is what every strength may lie
-/// below 0 instead: the largest λ with x ≥ λ tells by its sign whether there are states.
+/// both ≥ 0, with the columns w_1 and −w_1: no basis holds both. Relaxed, λ is added to
+/// every strength x of an edge of a contact instead: the largest λ, negative if need be, tells by its sign
+/// whether there are states.
 class ContactProblem {
  public:
   /// Precondition: find_defect(packing) is empty.

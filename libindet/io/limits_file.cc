@@ -17,7 +17,8 @@ namespace indet {
 namespace {
 
 /// In the order of the values of LimitOutcome.
-const EnumNames kLimitOutcomes = {"reached", "never", "no state", "undecided"};
+const EnumNames kLimitOutcomes = {to_string(LimitOutcome::kReached), to_string(LimitOutcome::kNever),
+                                  to_string(LimitOutcome::kNoState), to_string(LimitOutcome::kUndecided)};
 constexpr std::size_t kEnds = 2;  ///< smallest, largest
 
 std::string group_of(std::size_t number) { return fmt::format("/limits/{}", number); }
@@ -69,7 +70,7 @@ void write_limit(Hdf5File& file, const std::string& group, const Packing& packin
   const std::string unit = limit.kind == LimitKind::kTilt ? "rad" : "1";
   file.make_group(group);
   file.set_attribute(group, "kind", to_string(limit.kind));
-  file.set_attribute(group, "load", limit.load);
+  file.set_attribute(group, "load", limit.name);
   file.set_attribute(group, "first_of_several", limit.is_first_of_several ? 1 : 0);
   std::vector<std::int32_t> left_out;
   for (const DiskId disk : limit.left_out) left_out.push_back(disk.value());
@@ -144,7 +145,7 @@ class LimitReader {
                                     [&](LimitKind k) { return kind == to_string(k); });
     if (found == std::end(kLimitKinds)) fail("@kind", fmt::format("\"{}\" is unknown", excerpt(kind)));
     limit.kind = *found;
-    limit.load = file_.string_attribute(group_, "load");
+    limit.name = file_.string_attribute(group_, "load");
     limit.is_first_of_several = file_.integer_attribute(group_, "first_of_several") != 0;
     for (const std::int32_t disk :
          file_.read_integers(group_ + "/left_out", file_.shape(group_ + "/left_out", 1))) {

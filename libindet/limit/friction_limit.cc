@@ -24,8 +24,8 @@ using exact::Goal;
 using exact::Optimum;
 using exact::Verdict;
 
-constexpr double kLargestFactor = 0x1p30;
-constexpr double kSmallestFactor = 0x1p-40;
+using tolerance::kLargestFactor;
+using tolerance::kSmallestFactor;
 
 /// −A w, with w what a strength of 1 in the exact problem is here.
 Eigen::VectorXd relaxation(const EquilibriumProblem& problem) {
@@ -73,19 +73,14 @@ class FrictionFinder {
 
  private:
   Packing at(double factor) const { return with_friction(packing_, scaled_, factor); }
-  Standing stand(double factor) {
-    Standing standing = find_standing(at(factor), options_);
-    end_.pivots += standing.pivots;
-    return standing;
-  }
+  Standing stand(double factor) { return find_standing(at(factor), options_); }
 
   /// Where t is near 0 for GLPK, as where some edges are closed with any friction, or far from 1, where its
   /// tolerances say little, exact arithmetic has the last word.
   bool falls_at(double factor) {
-    constexpr double kFar = 64;
-    constexpr double kClear = 1e-9;
+    using tolerance::kFarFactor;
     const double t = margin(factor);
-    if (std::abs(t) > kClear && factor < kFar && factor > 1 / kFar) return t < 0;
+    if (std::abs(t) > tolerance::kClearMargin && factor < kFarFactor && factor > 1 / kFarFactor) return t < 0;
     return !stand(factor).stands();
   }
 
@@ -158,7 +153,6 @@ class FrictionFinder {
     if (!basis) return false;
     const Goal goal = Goal::of_strengths({{exact.rise(), 1.0}, {exact.fall(), -1.0}});
     const Optimum found = exact::maximise(exact, basis, goal, options_.most_pivots);
-    end_.pivots += found.pivots;
     switch (found.verdict) {
       case Verdict::kOptimal:
         if (found.value >= 0) return false;

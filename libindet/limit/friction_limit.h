@@ -11,11 +11,12 @@ namespace indet {
 /// others. The more friction, the larger the cones, so that it stands with every larger factor.
 ///
 /// The largest t with all strengths x ≥ t, a linear program, is negative below s and not above it. Its zero
-/// is found by bracketing (Alefeld, Potra and Shi, ACM Trans. Math. Softw. 21, 327 (1995)), and then it is
-/// proven in rational arithmetic that it falls just below and stands just above, with the coefficients of
+/// is found by bracketing (Alefeld, Potra and Shi, ACM Trans. Math. Softw. 21, 327 (1995)), or, where t is 0
+/// above s, too, since some contacts transmit nothing whatever their friction, by halves in exact arithmetic.
+/// It is proven in exact arithmetic that it falls just below and stands just above, with the coefficients of
 /// friction rounded to doubles.
 struct FrictionLimit {
-  /// `smallest`: the infimum with forces just above and a motion that proves that it falls just below.
+  /// The infimum with forces just above and a motion that proves that it falls just below.
   ///   kReached  at 0: no friction is needed
   ///   kNoState  no friction suffices, up to the factor `lower` at least, of which it is proven
   LimitEnd infimum;

@@ -97,7 +97,7 @@ Limit find_tilt(const Packing& packing, double ignore_below, const LimitOptions&
     }
   }
   limit.kind = LimitKind::kTilt;
-  limit.load = "tilt";
+  limit.name = "tilt";
   limit.smallest = on_all_contacts(packing, limit.left_out, std::move(found.smallest));
   limit.largest = on_all_contacts(packing, limit.left_out, std::move(found.largest));
   limit.is_first_of_several = found.is_first_of_several;
@@ -108,7 +108,7 @@ Limit find_load(const Packing& packing, std::string name, Loads change, const Li
   LoadLimits found = find_load_limits(packing, change, options);
   Limit limit;
   limit.kind = LimitKind::kLoad;
-  limit.load = std::move(name);
+  limit.name = std::move(name);
   limit.change = std::move(change);
   limit.smallest = std::move(found.smallest);
   limit.largest = std::move(found.largest);
@@ -120,7 +120,7 @@ Limit find_friction(const Packing& packing, std::string name, std::vector<bool> 
   FrictionLimit found = find_friction_limit(packing, scaled, options);
   Limit limit;
   limit.kind = LimitKind::kFriction;
-  limit.load = std::move(name);
+  limit.name = std::move(name);
   limit.scaled = std::move(scaled);
   limit.smallest = std::move(found.infimum);
   limit.is_attained = found.is_attained;

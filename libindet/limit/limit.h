@@ -22,7 +22,7 @@ const char* to_string(LimitKind kind);
 /// Both ends of what a packing can take, as files hold it.
 struct Limit {
   LimitKind kind = LimitKind::kTilt;
-  std::string load;          ///< how the user called it
+  std::string name;          ///< how the user called it
   Loads change;              ///< of kLoad; else 0
   std::vector<bool> scaled;  ///< of kFriction: which contacts; else empty
   LimitEnd smallest, largest;
@@ -31,7 +31,7 @@ struct Limit {
   double map_angle = std::numeric_limits<double>::quiet_NaN();
   /// Of kFriction: it stands with the smallest factor itself (FrictionLimit::is_attained).
   bool is_attained = true;
-  /// Of kTilt: something takes part that does not turn with gravity, so that it may stand again further on.
+  /// Of kTilt: it may stand at other angles, too, that do not join these (TiltLimits).
   bool is_first_of_several = false;
   /// Disks that were taken out, in this order: forces of their contacts are 0, and they do not move.
   std::vector<DiskId> left_out;
@@ -56,7 +56,7 @@ Packing without(Packing packing, const std::vector<DiskId>& disks);
 
 /// A disk that lies loosely on others rolls away at a small angle, which says little about the packing. So as
 /// long as a mechanism moves one disk alone, at an angle below `ignore_below` (rad), and the packing stands
-/// without it (it carries no other), that disk is taken out.
+/// without it, that disk is taken out.
 Limit find_tilt(const Packing& packing, double ignore_below = 0, const LimitOptions& options = {});
 Limit find_load(const Packing& packing, std::string name, Loads change, const LimitOptions& options = {});
 

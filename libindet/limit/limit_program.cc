@@ -2,25 +2,14 @@
 
 #include <utility>
 
+#include "libindet/lp/layout.h"
+
 namespace indet {
 namespace {
 
 /// Ways to try in turn: from where the last solve ended by either simplex method, from GLPK's advanced basis,
 /// presolved and rescaled.
 enum Rung : int { kGoOn, kGoOnDual, kCold, kPresolved, kRungs };
-
-LpStatus interpret(GlpkProblem::Result result) {
-  switch (result) {
-    case GlpkProblem::Result::kOptimal:
-      return LpStatus::kOptimal;
-    case GlpkProblem::Result::kUnbounded:
-      return LpStatus::kUnbounded;
-    case GlpkProblem::Result::kInfeasible:
-      return LpStatus::kInfeasible;
-    default:
-      return LpStatus::kFailed;
-  }
-}
 
 }  // namespace
 
@@ -83,7 +72,7 @@ LpStatus LimitProgram::attempt(int rung) {
   settings.presolve = rung == kPresolved;
   if (rung == kCold || rung == kPresolved) program_->advanced_basis();
   if (rung == kPresolved) program_->scale(true);
-  const LpStatus status = interpret(program_->solve(settings));
+  const LpStatus status = status_of(program_->solve(settings));
   if (rung == kPresolved) program_->scale(false);
   return status;
 }

@@ -23,21 +23,13 @@ using exact::Verdict;
 using SharedBasis = std::shared_ptr<const ContactBasis>;
 
 /// The packing with nothing but ± the change acting on it, and bounds as they are for a direction of growth.
-Packing under_change_alone(Packing packing, const Loads& change, int sign) {
-  packing.named_force_unit = packing.force_unit();
+Packing under_change_alone(const Packing& packing, const Loads& change, int sign) {
+  Packing alone = under_alone(combined(sign, change, 0, {}), packing);
   const auto to_zero = [](double& bound) { bound = std::isfinite(bound) ? 0 : bound; };
-  for (Contact& contact : packing.contacts) {
+  for (Contact& contact : alone.contacts) {
     for (double* bound : {&contact.R_lo, &contact.R_hi, &contact.T_lo, &contact.T_hi}) to_zero(*bound);
   }
-  packing.gravity.setZero();
-  for (Disk& disk : packing.disks) disk.load.setZero();
-  const auto to_nothing = [](double& load) { load = std::isnan(load) ? load : 0; };
-  for (Wall& wall : packing.walls) {
-    to_nothing(wall.load_n);
-    to_nothing(wall.load_t);
-  }
-  for (const char* name : Stress::kNames) to_nothing(*packing.stress.find(name));
-  return under(change, sign, std::move(packing));
+  return alone;
 }
 
 }  // namespace
@@ -65,7 +57,6 @@ struct LoadLimitFinder::Impl {
     const SharedBasis basis = basis_of(exact_, problem_, answer);
     if (!basis) return false;
     const Optimum found = exact::find_solution(exact_, basis, options_.most_pivots);
-    end.pivots += found.pivots;
     if (found.verdict == Verdict::kOptimal) return true;
     describe_fall(found, end);
     return false;
@@ -84,7 +75,6 @@ struct LoadLimitFinder::Impl {
   bool prove_never(int sign, LimitEnd& end) const {
     const Packing alone = under_change_alone(packing_, change_, sign);
     const Standing standing = find_standing(alone, options_);
-    end.pivots += standing.pivots;
     if (!standing.stands()) return false;
     end.outcome = LimitOutcome::kNever;
     end.value = sign * kInfinity;
@@ -101,7 +91,6 @@ struct LoadLimitFinder::Impl {
     if (!basis) return;
     const Goal goal = Goal::of_strengths({{exact_.rise(), 1.0 * sign}, {exact_.fall(), -1.0 * sign}});
     const Optimum found = exact::maximise(exact_, basis, goal, options_.most_pivots);
-    end.pivots += found.pivots;
     if (found.verdict == Verdict::kOptimal) {
       describe(found, goal, sign, end);
     } else if (found.verdict == Verdict::kUnbounded) {

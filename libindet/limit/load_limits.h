@@ -41,7 +41,6 @@ struct LimitEnd {
   int non_transmitting = -1;  ///< contacts without force there
   int dim = -1;               ///< of the face of F that is left at the limit: 0 is one state; −1: not known
   bool has_one_mechanism = false;  ///< no other motion (but for its size)
-  int pivots = 0;                  ///< of exact arithmetic
 };
 
 struct LoadLimits {

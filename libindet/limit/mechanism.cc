@@ -1,5 +1,6 @@
 #include "libindet/limit/mechanism.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libindet/base/tolerances.h"
@@ -50,6 +51,25 @@ std::vector<ContactMotion> contact_motions(const Packing& packing, const exact::
                                       : ContactMotion::kRests);
   }
   return motions;
+}
+
+double load_power(const Packing& packing, const Loads& loads, const exact::BodyMotion& motion) {
+  double power = 0;
+  for (int i = 0; i < packing.disk_count(); ++i) {
+    Vector3 wrench = loads.wrench(packing, DiskId(i));
+    wrench.z() /= packing[DiskId(i)].radius;  // rω is stored
+    power += wrench.dot(motion.disks.row(i));
+  }
+  for (int w = 0; w < motion.walls.rows(); ++w) {
+    for (const int k : {0, 1}) power += loads.on_wall(WallId(w), k) * motion.walls(w, k);
+  }
+  if (motion.cell.rows() == 2) {
+    const auto& [xx, yy, xy, pressure] = loads.stress;
+    const double along = xx * motion.cell(0, 0) + yy * motion.cell(1, 1) + xy * motion.cell(0, 1) +
+                         pressure * motion.cell.trace();
+    power += packing.cell.area() / packing.cell_length() * along;
+  }
+  return power;
 }
 
 std::vector<DiskId> moving_disks(const exact::BodyMotion& motion) {

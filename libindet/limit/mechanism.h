@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "libindet/exact/body_motion.h"
+#include "libindet/packing/loads.h"
 #include "libindet/packing/packing.h"
 
 namespace indet {
@@ -27,6 +28,9 @@ std::vector<ContactRates> contact_rates(const Packing& packing, const exact::Bod
 
 /// What each contact does. Precondition: the largest entry of the motion is 1.
 std::vector<ContactMotion> contact_motions(const Packing& packing, const exact::BodyMotion& motion);
+
+/// What loads do along a motion, per unit of it, in the scene's units.
+double load_power(const Packing& packing, const Loads& loads, const exact::BodyMotion& motion);
 
 /// Those that have a velocity, ascending.
 std::vector<DiskId> moving_disks(const exact::BodyMotion& motion);

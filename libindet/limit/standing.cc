@@ -18,7 +18,6 @@ Standing find_standing(const Packing& packing, const LimitOptions& options) {
   if (!start) return result;
   const exact::Optimum found = exact::find_solution(exact, start, options.most_pivots);
   result.verdict = found.verdict;
-  result.pivots = found.pivots;
   if (result.stands()) {
     result.forces = forces_of(*found.basis, packing.contact_count());
   } else if (found.verdict == exact::Verdict::kEmpty) {

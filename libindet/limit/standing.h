@@ -15,7 +15,6 @@ struct Standing {
   exact::Verdict verdict = exact::Verdict::kUndecided;
   SceneForces forces;        ///< if it stands: a vertex of F
   exact::BodyMotion motion;  ///< if it does not: a motion that nothing resists and under which the load works
-  int pivots = 0;
 
   bool stands() const { return verdict == exact::Verdict::kOptimal; }
   bool falls() const { return verdict == exact::Verdict::kEmpty || verdict == exact::Verdict::kInconsistent; }

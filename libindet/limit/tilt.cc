@@ -84,17 +84,14 @@ class TiltCone {
   /// Where tan has no end about one direction, gravity along the next one is admissible.
   LimitEnd end_from(int first, int sign) {
     LimitEnd end;
-    int pivots = 0;
     for (int k = 0; k < 4; ++k) {
       const int quarter = first + sign * k;
       end = at(quarter).find(sign);
-      pivots += end.pivots;
       // Beyond a half turn, with the other directions of a convex cone, there is no end.
       if (end.outcome == LimitOutcome::kNever && k < 2) continue;
       if (end.outcome == LimitOutcome::kReached) to_angle(quarter, end);
       break;
     }
-    end.pivots = pivots;
     return end;
   }
 

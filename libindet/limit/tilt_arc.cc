@@ -9,6 +9,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/limit/mechanism.h"
 #include "libindet/limit/standing.h"
 
 namespace indet {
@@ -25,26 +26,14 @@ struct Powers {
 };
 
 Powers powers_of(const Packing& packing, const exact::BodyMotion& motion) {
-  Powers powers;
   const Vector2& g = packing.gravity;
-  const Loads loads = loads_of(packing);
-  for (int i = 0; i < packing.disk_count(); ++i) {
-    const Disk& disk = packing[DiskId(i)];
-    if (disk.fixed) continue;
-    const Vector2 velocity = motion.disks.row(i).head<2>();
-    powers.along += disk.mass * g.dot(velocity);
-    powers.across += disk.mass * (-g.y() * velocity.x() + g.x() * velocity.y());
-    powers.rest += disk.load.head<2>().dot(velocity) + disk.load.z() / disk.radius * motion.disks(i, 2);
-  }
-  for (int w = 0; w < motion.walls.rows(); ++w) {
-    for (const int k : {0, 1}) powers.rest += loads.on_wall(WallId(w), k) * motion.walls(w, k);
-  }
-  if (motion.cell.rows() == 2) {
-    const double scale = packing.cell.area() / packing.cell_length();
-    const std::array<double, 4> rates{motion.cell(0, 0), motion.cell(1, 1), motion.cell(0, 1),
-                                      motion.cell(0, 0) + motion.cell(1, 1)};
-    for (std::size_t k = 0; k < rates.size(); ++k) powers.rest += loads.stress[k] * scale * rates[k];
-  }
+  Loads along, across;
+  along.gravity = g;
+  across.gravity = {-g.y(), g.x()};
+  Loads rest = loads_of(packing);
+  rest.gravity.setZero();
+  Powers powers{load_power(packing, along, motion), load_power(packing, across, motion),
+                load_power(packing, rest, motion)};
   const std::vector<ForceBound> bounds = force_bounds(packing);
   for (Eigen::Index k = 0; k < motion.bounds.size(); ++k)
     powers.rest -= bounds[static_cast<std::size_t>(k)].value * motion.bounds[k];
@@ -59,7 +48,6 @@ class ArcFinder {
 
   LimitEnd find() {
     const Standing standing = find_standing(packing_, options_);
-    end_.pivots = standing.pivots;
     if (!standing.stands()) {
       if (standing.falls()) {
         end_.outcome = LimitOutcome::kNoState;
@@ -86,7 +74,6 @@ class ArcFinder {
     Loads change;
     change.gravity = gravity - here.gravity;
     limit_ = LoadLimitFinder(here, change, options_).find(1);
-    end_.pivots += limit_.pivots;
     if (limit_.outcome == LimitOutcome::kNever) return Side::kIn;
     if (limit_.outcome != LimitOutcome::kReached) return Side::kUndecided;
     if (limit_.lower >= 1) return Side::kIn;
@@ -129,14 +116,12 @@ class ArcFinder {
   }
 
   void describe() {
-    const int pivots = end_.pivots;
     if (inside_ >= kTurn) {
       end_.outcome = LimitOutcome::kNever;
       end_.value = end_.lower = end_.upper = sign_ * kInfinity;
       return;
     }
     end_ = boundary_;
-    end_.pivots = pivots;
     end_.outcome = is_enclosed() ? LimitOutcome::kReached : LimitOutcome::kUndecided;
     const double rounding = 16 * kRoundoff;
     const double inside = inside_ == 0 ? 0 : sign_ * (inside_ - rounding);

@@ -60,18 +60,7 @@ class EdgeLayout : public Layout {
 
   GlpkProblem::Simplex warm_simplex() const override { return GlpkProblem::Simplex::kPrimal; }
 
-  LpStatus interpret(GlpkProblem::Result result) const override {
-    switch (result) {
-      case GlpkProblem::Result::kOptimal:
-        return LpStatus::kOptimal;
-      case GlpkProblem::Result::kInfeasible:
-        return LpStatus::kInfeasible;
-      case GlpkProblem::Result::kUnbounded:
-        return LpStatus::kUnbounded;
-      default:
-        return LpStatus::kFailed;
-    }
-  }
+  LpStatus interpret(GlpkProblem::Result result) const override { return status_of(result); }
 
  private:
   const FeasibleSet& set_;

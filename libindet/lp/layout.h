@@ -31,6 +31,9 @@ std::unique_ptr<Layout> make_null_space_layout(const SlopeView& view);
 std::unique_ptr<Layout> make_dual_layout(const SlopeView& view);
 std::unique_ptr<Layout> make_edge_layout(const FeasibleSet& set);
 
+/// What GLPK's result says about a polyhedron that it has as it is, not as a dual.
+LpStatus status_of(GlpkProblem::Result result);
+
 /// The layout of the given formulation. `view` must outlive it, and has a set for kEdge.
 std::unique_ptr<Layout> make_layout(const SlopeView& view, Formulation formulation);
 

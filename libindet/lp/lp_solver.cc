@@ -24,6 +24,19 @@ std::vector<Formulation> order_of(const SlopeView& view, Formulation first) {
 
 }  // namespace
 
+LpStatus status_of(GlpkProblem::Result result) {
+  switch (result) {
+    case GlpkProblem::Result::kOptimal:
+      return LpStatus::kOptimal;
+    case GlpkProblem::Result::kInfeasible:
+      return LpStatus::kInfeasible;
+    case GlpkProblem::Result::kUnbounded:
+      return LpStatus::kUnbounded;
+    default:
+      return LpStatus::kFailed;
+  }
+}
+
 std::unique_ptr<Layout> make_layout(const SlopeView& view, Formulation formulation) {
   switch (formulation) {
     case Formulation::kNullSpace:

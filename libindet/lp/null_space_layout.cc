@@ -50,18 +50,7 @@ class NullSpaceLayout : public Layout {
 
   GlpkProblem::Simplex warm_simplex() const override { return GlpkProblem::Simplex::kPrimal; }
 
-  LpStatus interpret(GlpkProblem::Result result) const override {
-    switch (result) {
-      case GlpkProblem::Result::kOptimal:
-        return LpStatus::kOptimal;
-      case GlpkProblem::Result::kInfeasible:
-        return LpStatus::kInfeasible;
-      case GlpkProblem::Result::kUnbounded:
-        return LpStatus::kUnbounded;
-      default:
-        return LpStatus::kFailed;
-    }
-  }
+  LpStatus interpret(GlpkProblem::Result result) const override { return status_of(result); }
 
  private:
   const SlopeView& view_;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
+
+#include "libindet/base/tolerances.h"
 
 namespace indet {
 
@@ -51,6 +54,10 @@ Loads loads_of(const Packing& packing) {
 }
 
 std::string defect_of(const Loads& change, const Packing& packing) {
+  const bool acts_on_mass = std::any_of(packing.disks.begin(), packing.disks.end(),
+                                        [](const Disk& disk) { return !disk.fixed && disk.mass > 0; });
+  if (!change.gravity.isZero(0) && !acts_on_mass)
+    return "gravity reaches no contact: no disk that has mass is free";
   for (std::size_t i = 0; i < change.disks.size(); ++i) {
     if (packing.disks[i].fixed && !change.disks[i].isZero(0))
       return fmt::format("disk {} is fixed: a force on it does not reach any contact", packing.disks[i].id);
@@ -70,6 +77,36 @@ std::string defect_of(const Loads& change, const Packing& packing) {
       return fmt::format("the stress {} is not imposed on the packing", Stress::kNames[k]);
   }
   return "";
+}
+
+bool are_parallel(const Loads& loads, const Loads& others) {
+  const auto numbers = [](const Loads& of) {
+    std::vector<double> all(of.stress.begin(), of.stress.end());
+    all.insert(all.end(), {of.gravity.x(), of.gravity.y()});
+    for (const Vector3& load : of.disks) all.insert(all.end(), {load.x(), load.y(), load.z()});
+    for (const Vector2& load : of.walls) all.insert(all.end(), {load.x(), load.y()});
+    return all;
+  };
+  const std::vector<double> a = numbers(loads);
+  const std::vector<double> b = numbers(others);
+  const Eigen::Map<const Eigen::VectorXd> x(a.data(), std::ssize(a));
+  const Eigen::Map<const Eigen::VectorXd> y(b.data(), std::ssize(b));
+  const Eigen::VectorXd across = y.stableNormalized() - x.stableNormalized();
+  const Eigen::VectorXd along = y.stableNormalized() + x.stableNormalized();
+  return std::min(across.norm(), along.norm()) <= tolerance::kParallelLoads;
+}
+
+Packing under_alone(const Loads& loads, Packing packing) {
+  packing.named_force_unit = packing.force_unit();
+  packing.gravity.setZero();
+  for (Disk& disk : packing.disks) disk.load.setZero();
+  const auto to_nothing = [](double& load) { load = std::isnan(load) ? load : 0; };
+  for (Wall& wall : packing.walls) {
+    to_nothing(wall.load_n);
+    to_nothing(wall.load_t);
+  }
+  for (const char* name : Stress::kNames) to_nothing(*packing.stress.find(name));
+  return under(loads, 1, std::move(packing));
 }
 
 Packing under(const Loads& change, double lambda, Packing packing) {

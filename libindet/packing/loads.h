@@ -35,6 +35,12 @@ Loads loads_of(const Packing& packing);
 /// Empty if it can. Preconditions: `disks` and `walls` are empty or have the sizes of the packing.
 std::string defect_of(const Loads& change, const Packing& packing);
 
+/// Whether they are multiples of each other, but for rounding. Precondition: of one packing.
+bool are_parallel(const Loads& loads, const Loads& others);
+
+/// The packing with these loads in place of its own; the unit of force stays. Precondition: as below.
+Packing under_alone(const Loads& loads, Packing packing);
+
 /// The packing under loads + λ change. Precondition: defect_of(change, packing) is empty.
 Packing under(const Loads& change, double lambda, Packing packing);
 

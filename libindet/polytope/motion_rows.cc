@@ -34,6 +34,11 @@ void set_motion(const Packing& packing, const exact::ContactProblem& exact, std:
   polytope.bound_multipliers = motion.bounds;
 }
 
+double exact_row_scale(const exact::ContactProblem& exact, const EquilibriumRow& row) {
+  if (row.body.is_cell()) return exact.compression_scale();
+  return row.component == 2 ? exact.spin_scale(row.body.disk_id()) : 1;
+}
+
 std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
                                          const EquilibriumProblem& problem, const Eigen::VectorXd& motion) {
   std::vector<double> result(static_cast<std::size_t>(exact.rows()), 0);
@@ -49,11 +54,7 @@ std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
     }
     const int number = exact.row(row.body, row.component);
     if (number < 0) continue;
-    const bool turns = !row.body.is_cell() && row.component == 2;
-    const double scale = row.body.is_cell() ? exact.compression_scale()
-                         : turns            ? exact.spin_scale(row.body.disk_id())
-                                            : 1;
-    result[static_cast<std::size_t>(number)] = velocity * scale;
+    result[static_cast<std::size_t>(number)] = velocity * exact_row_scale(exact, row);
   }
   return result;
 }

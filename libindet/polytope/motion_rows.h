@@ -21,6 +21,9 @@ Eigen::VectorXd on_equations(const EquilibriumProblem& problem, const barrier::B
 void set_motion(const Packing& packing, const exact::ContactProblem& exact, std::span<const double> rows,
                 ForcePolytope& polytope);
 
+/// What a velocity of this row is multiplied by in the exact problem's row of the same body and component.
+double exact_row_scale(const exact::ContactProblem& exact, const EquilibriumRow& row);
+
 /// A motion of the equations' rows (one velocity a row), on the rows of the exact problem, largest entry 1.
 std::vector<double> motion_on_exact_rows(const exact::ContactProblem& exact,
                                          const EquilibriumProblem& problem, const Eigen::VectorXd& motion);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libindet/exact/contact_problem.h"
+#include "libindet/polytope/motion_rows.h"
 
 namespace indet {
 namespace {
@@ -35,11 +36,7 @@ class RowMap {
       }
       const int number = exact.row(row.body, row.component);
       if (number < 0) continue;  // 0 = 0
-      const bool turns = !row.body.is_cell() && row.component == 2;
-      const double scale = row.body.is_cell() ? exact.compression_scale()
-                           : turns            ? exact.spin_scale(row.body.disk_id())
-                                              : 1;
-      add(number, i, scale);
+      add(number, i, exact_row_scale(exact, row));
     }
   }
   const std::vector<Target>& operator[](int row) const { return targets_[static_cast<std::size_t>(row)]; }

@@ -23,26 +23,6 @@
 namespace indet {
 namespace {
 
-/// Nothing acts on it but a change of loads.
-Packing under_alone(Packing packing, const Loads& change) {
-  packing.named_force_unit = packing.force_unit();
-  packing.gravity = change.gravity;
-  for (std::size_t i = 0; i < packing.disks.size(); ++i)
-    packing.disks[i].load = change.disks.empty() ? Vector3(0, 0, 0) : change.disks[i];
-  for (std::size_t w = 0; w < packing.walls.size(); ++w) {
-    Wall& wall = packing.walls[w];
-    for (const int k : {0, 1}) {
-      double& load = k == 0 ? wall.load_n : wall.load_t;
-      if (!std::isnan(load)) load = change.walls.empty() ? 0 : change.walls[w][k];
-    }
-  }
-  for (std::size_t k = 0; k < change.stress.size(); ++k) {
-    double& stress = *packing.stress.find(Stress::kNames[k]);
-    if (!std::isnan(stress)) stress = change.stress[k];
-  }
-  return packing;
-}
-
 /// One end of one limit.
 class EndCheck {
  public:
@@ -73,7 +53,7 @@ class EndCheck {
         check_fall();
         return;
       case LimitOutcome::kUndecided:
-        compare_.call_unsolved(fmt::format("{} ({})", name_, limit_.load));
+        compare_.call_unsolved(fmt::format("{} ({})", name_, limit_.name));
         return;
     }
   }
@@ -227,7 +207,7 @@ class EndCheck {
   }
 
   RebuiltProblem::Sum change_power(const Packing& packing, const Loads& change) const {
-    Packing alone = under_alone(packing, change);
+    Packing alone = under_alone(change, packing);
     for (Contact& contact : alone.contacts)
       contact.R_lo = contact.T_lo = -kInfinity, contact.R_hi = contact.T_hi = kInfinity;
     const RebuiltProblem problem(alone);
@@ -248,15 +228,15 @@ class EndCheck {
     compare_.require(end_.motion.disks.rows() == 0, "{}: never, yet there is a motion", name_);
     if (limit_.kind == LimitKind::kFriction) return;  // larger cones hold the smaller ones
     if (limit_.smallest.outcome == limit_.largest.outcome)
-      compare_.leave_unchecked(fmt::format("that any value has a state ({})", limit_.load));
+      compare_.leave_unchecked(fmt::format("that any value has a state ({})", limit_.name));
     if (limit_.kind == LimitKind::kTilt) {
       compare_.leave_unchecked(
-          fmt::format("{} of {}: that it stands whichever way gravity points", name_, limit_.load));
+          fmt::format("{} of {}: that it stands whichever way gravity points", name_, limit_.name));
       return;
     }
     if (!compare_.require(end_.forces.value().size() == 2 * packing_.contact_count(), "{}: no ray", name_))
       return;
-    const Packing alone = under_alone(without(packing_, limit_.left_out), limit_.change);
+    const Packing alone = under_alone(limit_.change, without(packing_, limit_.left_out));
     const RebuiltProblem problem(alone);
     const Eigen::VectorXd ray = forces_of(1);
     // The ray is stored with largest entry 1: its multiple balances the change.
@@ -289,7 +269,7 @@ class EndCheck {
     const RebuiltProblem::Sum own = power(rest);
     compare_.require(own.value > 0, "{}: the load does no work along the motion ({})", name_, own.value);
     if (limit_.kind == LimitKind::kTilt) {
-      compare_.leave_unchecked(fmt::format("that no other angle has a state ({})", limit_.load));
+      compare_.leave_unchecked(fmt::format("that no other angle has a state ({})", limit_.name));
       return;
     }
     if (limit_.kind == LimitKind::kFriction) return;
@@ -301,7 +281,7 @@ class EndCheck {
   void check_exactly() {
     if (limit_.smallest.value == limit_.largest.value)
       return compare_.leave_unchecked(
-          fmt::format("{}: by exact arithmetic (it stands at one value alone)", limit_.load));
+          fmt::format("{}: by exact arithmetic (it stands at one value alone)", limit_.name));
     // The load there is rounded in each of its numbers.
     const double step = 16 * kRoundoff * rounded_size();
     LimitEnd inside = end_;
@@ -324,7 +304,7 @@ class EndCheck {
     if (limit_.kind == LimitKind::kTilt) return std::max(1.0, std::abs(end_.value));
     const Packing rest = without(packing_, limit_.left_out);
     const RebuiltProblem own(rest);
-    const Packing alone = under_alone(rest, limit_.change);
+    const Packing alone = under_alone(limit_.change, rest);
     const RebuiltProblem change(alone);
     const double largest_own = own.wrench().lpNorm<Eigen::Infinity>() * own.force_unit();
     const double largest_change = change.wrench().lpNorm<Eigen::Infinity>() * change.force_unit();
@@ -358,16 +338,16 @@ bool is_one_value(const Limit& limit) {
 /// Angles of an interval about 0 are at most a whole turn from it, and those of a cone half a turn apart.
 void check_angles(const Limit& limit, Comparisons& compare) {
   constexpr double kTurn = 2 * std::numbers::pi;
-  constexpr double kRounding = 1e-12;
   for (const LimitEnd* end : {&limit.smallest, &limit.largest}) {
-    compare.require(!(std::abs(end->value) > kTurn + kRounding) || std::isinf(end->value),
-                    "{}: {} rad is more than a turn", limit.load, end->value);
+    compare.require(!(std::abs(end->value) > kTurn + tolerance::kAgreement) || std::isinf(end->value),
+                    "{}: {} rad is more than a turn", limit.name, end->value);
   }
   const double width = limit.largest.value - limit.smallest.value;
-  compare.require(limit.is_first_of_several || !std::isfinite(width) || width <= kTurn / 2 + kRounding,
-                  "{}: {} rad from end to end is more than half a turn", limit.load, width);
+  compare.require(
+      limit.is_first_of_several || !std::isfinite(width) || width <= kTurn / 2 + tolerance::kAgreement,
+      "{}: {} rad from end to end is more than half a turn", limit.name, width);
   if (limit.is_first_of_several)
-    compare.leave_unchecked(fmt::format("that it stands at all angles from end to end ({})", limit.load));
+    compare.leave_unchecked(fmt::format("that it stands at all angles from end to end ({})", limit.name));
 }
 
 }  // namespace
@@ -378,16 +358,16 @@ Verification verify_limits(const Packing& packing, const std::vector<Limit>& lim
     const Limit& limit = limits[k];
     compare.require((limit.smallest.outcome == LimitOutcome::kNoState) ==
                         (limit.largest.outcome == LimitOutcome::kNoState),
-                    "{}: one end says that there is no state, the other one does not", limit.load);
+                    "{}: one end says that there is no state, the other one does not", limit.name);
     compare.require(!(limit.smallest.lower > limit.largest.upper), "{}: the ends are in the wrong order",
-                    limit.load);
+                    limit.name);
     const bool turns = limit.kind != LimitKind::kTilt ||
                        (is_under_gravity_alone(without(packing, limit.left_out)) && !is_one_value(limit));
     if (limit.kind == LimitKind::kTilt) check_angles(limit, compare);
     if (!compare.require(limit.kind == LimitKind::kTilt || limit.left_out.empty(),
-                         "{}: left_out is for tilts alone", limit.load))
+                         "{}: left_out is for tilts alone", limit.name))
       continue;
-    compare.require(limit.is_first_of_several == !turns, "{}: first_of_several is {}", limit.load,
+    compare.require(limit.is_first_of_several == !turns, "{}: first_of_several is {}", limit.name,
                     limit.is_first_of_several);
     for (const bool is_largest : {false, true}) EndCheck(packing, limit, is_largest, compare).check(exact);
   }

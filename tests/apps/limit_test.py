@@ -170,6 +170,8 @@ class Limits(program.ProgramTest):
                 (2, ["--load", "disk=1,2"], "expected disk=ID"),
                 (2, ["--load", "disk=1,x,0"], '"x" is not a finite number'),
                 (2, ["--load", "disk=1,nan,0"], "not a finite number"),
+                (2, ["--load", "disk=1,1,0,"], '"" is not a finite number'),
+                (3, ["--load", "gravity=1,0", "--load", "gravity=-2,0", "--map", "8"], "span no plane"),
                 (3, ["--load", "disk=9,1,0"], "there is no disk 9"),
                 (3, ["--load", "wall=lid,1,0"], 'there is no wall "lid"; the walls are floor'),
                 (3, ["--load", "wall=floor,1,0"], "is fixed along its normal"),

@@ -36,15 +36,19 @@ void expect_rates_are_powers(const Packing& packing, const exact::BodyMotion& mo
 }
 
 TEST(Mechanism, RatesArePowersOfUnitForces) {
+  int reached = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     Packing packing = zoo::with_levers(zoo::with_loaded_walls(zoo::random_pile(seed, 5, 0.6), seed), seed);
     Loads change;
     change.gravity = {1, 0.2};
     const LoadLimits limits = find_load_limits(packing, change);
     for (const LimitEnd* end : {&limits.smallest, &limits.largest}) {
-      if (end->outcome == LimitOutcome::kReached) expect_rates_are_powers(packing, end->motion);
+      if (end->outcome != LimitOutcome::kReached) continue;
+      expect_rates_are_powers(packing, end->motion);
+      ++reached;
     }
   }
+  EXPECT_GE(reached, 2);
   Packing lattice = zoo::periodic_lattice(3, 4, 0.2, 0.05);
   Loads shear;
   shear.stress[2] = 1;
@@ -60,7 +64,12 @@ TEST(Mechanism, NoContactResistsAndThoseWithForceRestOrSlide) {
     change.gravity = {1, 0};
     const LoadLimits limits = find_load_limits(packing, change);
     const LimitEnd& end = limits.largest;
-    if (end.outcome != LimitOutcome::kReached) continue;
+    ASSERT_EQ(end.outcome, LimitOutcome::kReached) << seed;
+    // The change of the load does work, and all of the load none there.
+    EXPECT_GT(load_power(packing, change, end.motion), 0);
+    Loads there = loads_of(packing);
+    there.gravity += end.value * change.gravity;
+    EXPECT_NEAR(load_power(packing, there, end.motion), 0, 1e-12);
     const auto rates = contact_rates(packing, end.motion);
     const auto motions = contact_motions(packing, end.motion);
     for (std::size_t i = 0; i < rates.size(); ++i) {
