@@ -37,7 +37,8 @@ namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "20", paper_walk = "60";
+  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "20", paper_walk = "60",
+                                           limits = "60";
   std::optional<int> disks;
   std::optional<double> mu;
   EnsembleConfig config;
@@ -74,6 +75,7 @@ EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
   const auto most = std::max(config.seeds, static_cast<std::int64_t>(config.files.size()));
   config.uniform_seeds = std::min(count_of("--uniform-seeds", o.uniform_seeds), most);
   config.paper_walk_seeds = std::min(count_of("--paper-walk", o.paper_walk), most);
+  config.limit_seeds = std::min(count_of("--limits", o.limits), most);
   return config;
 }
 
@@ -280,6 +282,11 @@ Command add_ensemble(CLI::App& root) {
       ->add_option("--paper-walk", o->paper_walk,
                    "Also find dR and dT of the packings of this many seeds (and files) by the walk of the "
                    "paper; all, or 0 for none")
+      ->capture_default_str();
+  command
+      ->add_option("--limits", o->limits,
+                   "Also find how far the packings of this many seeds (and files) can be tilted, what their "
+                   "highest disk can carry, and with how little friction they stand; all, or 0 for none")
       ->capture_default_str();
   command->add_flag("--no-solver-states", o->no_solver_states,
                     "Leave out dR and dT of the extremal states that the solver happens to find");

@@ -235,14 +235,18 @@ class LimitReader {
 
 }  // namespace
 
+void write_limits_part(Hdf5File& file, const Packing& packing, const std::vector<Limit>& limits) {
+  file.make_group("/limits");
+  file.set_attribute("/limits", "count", static_cast<std::int64_t>(limits.size()));
+  for (std::size_t k = 0; k < limits.size(); ++k) write_limit(file, group_of(k), packing, limits[k]);
+}
+
 void write_limits(const std::filesystem::path& path, const Packing& packing, const std::vector<Limit>& limits,
                   const Provenance& provenance) {
   Hdf5File file = Hdf5File::create(path);
   write_header(file, schema_of(packing));
   write_packing_part(file, packing);
-  file.make_group("/limits");
-  file.set_attribute("/limits", "count", static_cast<std::int64_t>(limits.size()));
-  for (std::size_t k = 0; k < limits.size(); ++k) write_limit(file, group_of(k), packing, limits[k]);
+  write_limits_part(file, packing, limits);
   write_provenance_part(file, provenance);
   seal(file);
 }

@@ -8,7 +8,10 @@
 
 namespace indet {
 
-/// Writes a packing and its limits into one file (docs/file-format.md). Throws like write_packing.
+/// Writes the limits of a packing, whose part is in the file already (docs/file-format.md).
+void write_limits_part(Hdf5File& file, const Packing& packing, const std::vector<Limit>& limits);
+
+/// Writes a packing and its limits into one file. Throws like write_packing.
 void write_limits(const std::filesystem::path& path, const Packing& packing, const std::vector<Limit>& limits,
                   const Provenance& provenance);
 

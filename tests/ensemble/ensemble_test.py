@@ -324,6 +324,50 @@ class Agreement(EnsembleTest):
         self.assertNotIn("mallest distance", (self.folder / "e/report.html").read_text())  # not asked for either
         self.assertIn("--paper-walk some: expected a number, or all", self.ensemble("f", "--paper-walk", "some", status=2).stderr)
 
+    def test_limits_are_those_of_the_command(self):
+        self.made_ensemble("e")
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        for name in ("cd1-0000", "md2-0001"):
+            path = f"e/members/{name}.h5"
+            with h5py.File(self.folder / path) as file:
+                position, mg = file["particles/disks/position"][()], file["parameters"].attrs["mg"]
+                top = file["particles/disks/id"][position[:, 1].argmax()]
+                load = f"disk={top},0,{-mg!r}"
+                self.run_indet("limit", path, "--tilt", "--load", load, "--friction", "-o", "limits.h5")
+                self.run_indet("limit", path, "--tilt", "--ignore-below", "90", "-o", "several.h5")
+                row = list(runs["member"]).index(name.encode())
+                for number, other, place, columns in (
+                        (0, "limits.h5", 0, ("tilt_smallest", "tilt_largest")),
+                        (1, "several.h5", 0, ("tilt_of_several_smallest", "tilt_of_several_largest")),
+                        (2, "limits.h5", 1, (None, "load_on_top")), (3, "limits.h5", 2, ("least_friction", None))):
+                    with h5py.File(self.folder / other) as limits:
+                        there = limits[f"limits/{place}"]
+                        for key in ("value", "sliding", "dim"):
+                            values = file[f"limits/{number}/{key}"][()]
+                            np.testing.assert_allclose(values, there[key][()], rtol=1e-14)
+                            for end, column in enumerate(columns):
+                                if column:
+                                    self.assertEqual(runs[column + ("" if key == "value" else f"_{key}")][row], values[end])
+                        if number == 1:
+                            left_out = there["left_out"][()]
+                            self.assertEqual(runs["tilt_left_out"][row], len(left_out))
+                            bodies = file["contacts/body_a"][()], file["contacts/body_b"][()]
+                            contacts = ~(np.isin(bodies[0], left_out) | np.isin(bodies[1], left_out))
+                            self.assertEqual(runs["tilt_of_several_lower_bound"][row],
+                                             2 * contacts.sum() - 3 * (len(position) - len(left_out)))
+        self.run_indet("report", "e")
+        summary = (self.folder / "e/figures/limits.csv").read_text()
+        self.assertIn('"","CD-1","CD-2","MD-1","MD-2","CD − MD","more stable"', summary)
+        self.assertIn("How far are the packings from yielding?", (self.folder / "e/report.html").read_text())
+        done = json.loads(self.ensemble("e", "--limits", "1", "--json").stdout)
+        self.assertEqual((done["done"], done["skipped"]), (4, 4))
+        runs = table(self.folder / "e/ensemble.h5", "runs")
+        np.testing.assert_array_equal(np.isnan(runs["least_friction"]), runs["seed"] == 1)
+        np.testing.assert_array_equal(runs["tilt_left_out"] == -1, runs["seed"] == 1)
+        self.ensemble("e", "--limits", "0")
+        self.run_indet("report", "e")
+        self.assertNotIn("from yielding", (self.folder / "e/report.html").read_text())
+
     def test_smallest_distances_are_those_of_the_command(self):
         arguments = ["--seeds", "1", "--protocols", "cd1,md1", "--disks", "14", "--samples", "0", "--uniform-seeds", "0",
                      "--paper-walk", "0"]

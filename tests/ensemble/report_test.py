@@ -21,7 +21,7 @@ CHROMIUM = ""
 # 40 samples, because fewer are not compared with the uniform distribution.
 TINY = ["--seeds", "2", "--disks", "12", "--samples", "40"]
 FIGURES = ["fig03", "fig06a", "fig06b", "fig07", "fig08", "fig08-solver", "fig09", "fig10", "fig11", "fig12", "fig12-solver", "fig13",
-           "uniform-r", "uniform-forces", "uniform-places", "uniform-tests", "uniform-states", "uniform-friction"]
+           "limits-tilt", "limits-load", "limits-dimension", "uniform-r", "uniform-forces", "uniform-places", "uniform-tests", "uniform-states", "uniform-friction"]
 PROBE = """<script>addEventListener("load", () => {
   const seen = [...document.querySelectorAll("figure svg")].map(svg => {
     const box = svg.getBoundingClientRect();

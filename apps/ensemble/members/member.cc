@@ -113,6 +113,13 @@ void walk_member(const ProgressCallback& progress, MemberResult& result) {
   result.seconds["paper_walk"] = watch.seconds();
 }
 
+void find_limits(const ProgressCallback& progress, MemberResult& result) {
+  if (progress && !progress({"limits", 0, 1, ""})) throw Interrupted();
+  const Stopwatch watch;
+  result.limits = find_member_limits(result.packing);
+  result.seconds["limits"] = watch.seconds();
+}
+
 }  // namespace
 
 ExtremalForces count_extremal_forces(const Rows<double>& states, const Table4<std::int32_t>& vertex,
@@ -148,6 +155,7 @@ MemberResult compute_member(const EnsembleConfig& config, const Member& member,
   const WeightStates chain = sample_member(config, member, progress, result);
   if (member.paper_walk) walk_member(progress, result);
   if (member.uniform) sample_member_uniformly(config, member, chain, progress, result);
+  if (member.limits) find_limits(progress, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/members/limits_step.h"
 #include "apps/ensemble/members/paper_walk_step.h"
 #include "apps/ensemble/members/plan.h"
 #include "apps/ensemble/members/uniform_step.h"
@@ -39,6 +40,7 @@ struct MemberResult {
   std::optional<SamplingRecord> sampling;
   std::optional<UniformResult> uniform;
   std::optional<PaperWalkResult> paper_walk;
+  std::vector<Limit> limits;  ///< Of limits_step.h; empty if they were not asked for, or it has none.
   std::map<std::string, double> seconds;
 };
 

@@ -8,6 +8,7 @@
 #include "apps/ensemble/members/paper_walk_step.h"
 #include "apps/ensemble/members/write_vector.h"
 #include "libindet/base/error.h"
+#include "libindet/io/limits_file.h"
 #include "libindet/io/ranges_file.h"
 
 namespace indet {
@@ -66,6 +67,7 @@ void write_member(const std::filesystem::path& path, const Member& member, const
   write_ranges_part(file, result.ranges);
   if (result.sampling) write_sampling_part(file, *result.sampling);
   if (result.uniform) write_uniform_part(file, *result.uniform);
+  if (!result.limits.empty()) write_limits_part(file, result.packing, result.limits);
   write_ensemble_part(file, member, result);
   Provenance all = provenance;
   all.seconds = result.ranges.seconds;

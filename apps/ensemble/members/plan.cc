@@ -7,6 +7,7 @@
 #include <set>
 
 #include "apps/bridge/simulation_values.h"
+#include "apps/ensemble/members/limits_step.h"
 #include "libindet/base/error.h"
 #include "libindet/base/version.h"
 #include "libindet/io/packing_file.h"
@@ -63,10 +64,22 @@ std::string paper_walk_toml() {
                      to_string(options.start));
 }
 
+/// The same for those whose limits are found.
+std::string limits_toml() {
+  return fmt::format("[limits]\nnames = [\"{}\", \"{}\", \"{}\", \"{}\"]\n", limit_name::kTilt,
+                     limit_name::kTiltOfSeveral, limit_name::kLoadOnTop, limit_name::kFriction);
+}
+
 void add_paper_walk(double disks, Member& member) {
   member.paper_walk = true;
   member.config += paper_walk_toml();
   member.cost += 0.4 * std::pow(disks / 95, 4);
+}
+
+void add_limits(double disks, Member& member) {
+  member.limits = true;
+  member.config += limits_toml();
+  member.cost += 0.4 * std::pow(disks / 95, 3);
 }
 
 /// Seconds on one core, measured with 95 disks (docs/simulation.md, docs/ensemble.md); the exponents fit runs
@@ -100,6 +113,7 @@ Member simulated_member(const EnsembleConfig& config, Protocol protocol, std::in
   member.config += analysis_toml(config, seed);
   if (number < config.uniform_seeds) add_uniform_sampling(config, config.scene.disks, member);
   if (number < config.paper_walk_seeds) add_paper_walk(config.scene.disks, member);
+  if (number < config.limit_seeds) add_limits(config.scene.disks, member);
   return member;
 }
 
@@ -116,6 +130,7 @@ Member member_of_file(const EnsembleConfig& config, const std::filesystem::path&
   member.config += analysis_toml(config, std::max<std::int64_t>(member.seed, 0));
   if (number < config.uniform_seeds) add_uniform_sampling(config, disks, member);
   if (number < config.paper_walk_seeds) add_paper_walk(disks, member);
+  if (number < config.limit_seeds) add_limits(disks, member);
   return member;
 }
 
@@ -132,6 +147,7 @@ std::string config_of(const EnsembleConfig& config) {
     text += uniform_toml(config.uniform, -1) + fmt::format("packings = {}\n", config.uniform_seeds);
   if (config.paper_walk_seeds > 0)
     text += paper_walk_toml() + fmt::format("packings = {}\n", config.paper_walk_seeds);
+  if (config.limit_seeds > 0) text += limits_toml() + fmt::format("packings = {}\n", config.limit_seeds);
   return text;
 }
 

@@ -29,6 +29,8 @@ struct EnsembleConfig {
   UniformOptions uniform;  ///< Its seed is that of each packing.
   /// Packings of each protocol that the paper's walk analyses too, of the first seeds or files.
   std::int64_t paper_walk_seeds = 60;
+  /// Packings of each protocol whose limits are found too, of the first seeds or files (limits_step.h).
+  std::int64_t limit_seeds = 60;
   bool solver_states =
       true;  ///< Also dR and dT of the states that the solver happens to find, as in the paper.
   bool smallest_distances = false;  ///< Also dR_min and dT_min (range/smallest_distances.h).
@@ -43,6 +45,7 @@ struct Member {
   std::filesystem::path source;  ///< Of a packing that was there.
   bool uniform = false;          ///< Also sampled uniformly.
   bool paper_walk = false;       ///< Also analysed by the paper's walk.
+  bool limits = false;           ///< Also how far it is from yielding.
   double cost = 0;               ///< Estimated seconds on one core.
   std::string config;            ///< Everything that its results depend on, as TOML.
   std::string hash;              ///< SHA-256 of `config`.

@@ -30,6 +30,21 @@ std::string paper_radius(const Family& family) {
   return fmt::format("{:g} ± {:g}", family.paper_r, family.paper_r_error);
 }
 
+Series fraction_up_to(const Family& family, std::vector<double> values, double low, double high) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  std::sort(values.begin(), values.end());
+  Series series{.name = family.name(), .x = {low}, .y = {0}, .mark = family.mark(), .colour = family.colour};
+  const auto n = static_cast<double>(values.size());
+  for (std::size_t i = 0; i < values.size() && values[i] <= high; ++i) {
+    series.x.insert(series.x.end(), 2, values[i]);
+    series.y.push_back(static_cast<double>(i) / n);
+    series.y.push_back(static_cast<double>(i + 1) / n);
+  }
+  series.x.push_back(high);
+  series.y.push_back(series.y.back());
+  return series;
+}
+
 Series scatter(const EnsembleTables& tables, const Family& family, const char* x, const char* y) {
   Series series{.name = family.name(),
                 .x = {},

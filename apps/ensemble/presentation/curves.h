@@ -42,6 +42,10 @@ inline const Protocols kMd = {sim::Protocol::kMd1, sim::Protocol::kMd2};
 /// "33 ± 1.4".
 std::string paper_radius(const Family& family);
 
+/// The fraction of packings whose value is at most x, a step at each of them. Those without a value do not
+/// count.
+Series fraction_up_to(const Family& family, std::vector<double> values, double low, double high);
+
 /// Two columns of the runs of a protocol, one point per packing.
 Series scatter(const EnsembleTables& tables, const Family& family, const char* x, const char* y);
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "apps/ensemble/presentation/curves.h"
+#include "apps/ensemble/presentation/limit_figures.h"
 #include "apps/ensemble/presentation/samples.h"
 #include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
@@ -374,6 +375,7 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
                                       kSolverChoice.which));
   }
   figures.push_back(families(samples));
+  for (Figure& figure : limit_figures(tables)) figures.push_back(std::move(figure));
   for (Figure& figure : uniform_figures(tables)) figures.push_back(std::move(figure));
   return figures;
 }

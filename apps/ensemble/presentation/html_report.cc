@@ -12,6 +12,7 @@
 #include "apps/ensemble/presentation/comparison.h"
 #include "apps/ensemble/presentation/figures.h"
 #include "apps/ensemble/presentation/gnuplot.h"
+#include "apps/ensemble/presentation/limit_figures.h"
 #include "apps/ensemble/presentation/paper_choices.h"
 #include "apps/ensemble/presentation/uniform_figures.h"
 #include "apps/ensemble/presentation/verdict.h"
@@ -220,6 +221,19 @@ std::string section_of_uniform_sampling(const EnsembleTables& tables, const std:
          table_of(summary) + "<p class=\"note\">File: figures/uniform.csv</p>\n";
 }
 
+std::string section_of_limits(const EnsembleTables& tables, const std::filesystem::path& folder) {
+  const std::vector<std::vector<std::string>> summary = limit_summary(tables);
+  if (summary.empty()) return "";
+  write_whole_file(folder / "limits.csv", csv_of(summary));
+  return "<h2>How far are the packings from yielding?</h2>\n"
+         "<p>The tilt, load and friction beyond which no contact forces balance the packing. They follow "
+         "from "
+         "its contacts alone, whatever its simulated forces are. ± is one standard error; that of CD − MD is "
+         "of differences between packings of one seed. The more stable is named where the difference is "
+         "above two standard errors. The figures are below.</p>\n" +
+         table_of(summary) + "<p class=\"note\">File: figures/limits.csv</p>\n";
+}
+
 std::string section_of(const Figure& figure, const std::filesystem::path& folder) {
   const std::string claim =
       figure.claim.empty() ? "" : fmt::format("<b>Paper:</b> {}<br>", escaped(figure.claim));
@@ -258,6 +272,7 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
   html += "<h2>The paper's numbers</h2>\n" + comparison_table(comparison);
   html += note_on_verdicts(contents.tables);
   html += "<h2>Beyond the paper</h2>\n" + table_beyond_the_paper(beyond_the_paper(contents.tables));
+  html += section_of_limits(contents.tables, figures_folder);
   html += section_of_uniform_sampling(contents.tables, figures_folder);
   if (!pictures.empty()) {
     html += "<h2>Fig. 5: three contact states</h2>\n<div class=\"row\">\n";

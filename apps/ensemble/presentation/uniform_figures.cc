@@ -217,24 +217,14 @@ Panel percentiles(const Samples& samples, const char* column, const char* label,
               .legend_below = true};
   finding += fmt::format("Mean {}", label);
   for (const Family& family : families_with(samples, column)) {
-    std::vector<double> values;
-    for (const double value : samples.runs(family.protocol, column)) {
-      if (!std::isnan(value)) values.push_back(value);
-    }
-    std::sort(values.begin(), values.end());
-    Series series{.name = family.name(), .x = {0}, .y = {0}, .mark = family.mark(), .colour = family.colour};
-    const auto n = static_cast<double>(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      series.x.insert(series.x.end(), 2, values[i]);
-      series.y.push_back(static_cast<double>(i) / n);
-      series.y.push_back(static_cast<double>(i + 1) / n);
-    }
-    series.x.push_back(100);
-    series.y.push_back(1);
-    panel.series.push_back(series);
+    const std::vector<double> values = samples.runs(family.protocol, column);
+    panel.series.push_back(fraction_up_to(family, values, 0, 100));
     const Estimate mean = mean_of(values);
-    for (double& value : values) value /= 100;
-    const double p = uniformity_probability(values);
+    std::vector<double> fractions;
+    for (const double value : values) {
+      if (!std::isnan(value)) fractions.push_back(value / 100);
+    }
+    const double p = uniformity_probability(fractions);
     finding += fmt::format("{} {} {}{}", panel.series.size() == 1 ? ":" : ",", family.name(),
                            text_of(mean, 1), std::isnan(p) ? std::string() : fmt::format(" (p = {:.1g})", p));
   }

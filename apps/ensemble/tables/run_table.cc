@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/ensemble/tables/limit_table.h"
 #include "apps/ensemble/tables/uniform_tables.h"
 
 namespace indet {
@@ -54,12 +55,13 @@ constexpr std::array<AttributeColumn, 23> kAttributes = {{
 }};
 
 /// Seconds.
-constexpr std::array<AttributeColumn, 6> kTimings = {{
+constexpr std::array<AttributeColumn, 7> kTimings = {{
     {"simulate", "/provenance/timings", "simulate", "s", "simulation"},
     {"analyze", "/provenance/timings", "analyze", "s", "ranges and extremal states"},
     {"smallest_distances", "/provenance/timings", "smallest distances", "s", "smallest distances, of these"},
     {"sample", "/provenance/timings", "sample", "s", "perturb and resolve"},
     {"paper_walk", "/provenance/timings", "paper_walk", "s", "the paper's walk"},
+    {"limits", "/provenance/timings", "limits", "s", "limits of tilt, load and friction"},
     {"sample_uniform", "/provenance/timings", "sample_uniform", "s", "uniform sampling, and its comparison"},
 }};
 
@@ -87,6 +89,7 @@ std::vector<FlatTable::Column> run_columns() {
   columns.push_back(FlatTable::real("distance_cd1", "mg", "distance to the cd1 state of the same seed"));
   columns.push_back(FlatTable::real("distance_cd2", "mg", "distance to the cd2 state of the same seed"));
   append_columns(kAttributes, columns);
+  for (FlatTable::Column& column : limit_columns()) columns.push_back(std::move(column));
   for (FlatTable::Column& column : uniform_run_columns()) columns.push_back(std::move(column));
   return columns;
 }
@@ -129,6 +132,7 @@ std::size_t add_run(const Member& member, const Hdf5File& file, const Packing& p
     runs.set("norm", run, packing.simulated_forces().value().norm() / mg);
   }
   take_attributes(file, kAttributes, run, runs);
+  add_limits(file, packing, run, runs);
   tables.timings.add_rows(1);
   take_attributes(file, kTimings, run, tables.timings);
   return run;
