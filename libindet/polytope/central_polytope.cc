@@ -81,12 +81,6 @@ barrier::IndependentParts find_parts(const ForcePolytope& polytope) {
   return find_independent_parts(unlimited, std::span(x).first(static_cast<std::size_t>(unlimited.columns())));
 }
 
-bool have_same_edges(const EquilibriumProblem& a, const EquilibriumProblem& b) {
-  return std::equal(
-      a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
-      [&](const Edge& one, const Edge& other) { return a.half_plane(one) == b.half_plane(other); });
-}
-
 }  // namespace
 
 CentralPolytope::CentralPolytope(const EquilibriumProblem& problem, std::span<const int> independent,
@@ -109,14 +103,6 @@ bool add_centre(ForcePolytope& polytope) {
       std::make_shared<const CentralPolytope>(polytope.problem, polytope.null_space->independent_rows);
   if (!central->is_proven()) return false;
   polytope.central = std::move(central);
-  return true;
-}
-
-bool add_limits(const Packing& packing, ForcePolytope& polytope) {
-  if (polytope.status != PolytopeStatus::kUnbounded) return false;
-  const std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
-  if (!sparse || !sparse->unbounded || !have_same_edges(sparse->problem, polytope.problem)) return false;
-  polytope.unbounded = sparse->unbounded;
   return true;
 }
 

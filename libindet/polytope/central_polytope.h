@@ -42,8 +42,4 @@ std::optional<ForcePolytope> find_sparse_polytope(const Packing& packing);
 /// bounded, and the centre proven.
 bool add_centre(ForcePolytope& polytope);
 
-/// Adds to an unbounded polytope of the packing that find_force_polytope has found what stands in the place
-/// of the centre (ForcePolytope::unbounded). Returns whether it is there.
-bool add_limits(const Packing& packing, ForcePolytope& polytope);
-
 }  // namespace indet

@@ -24,7 +24,7 @@ std::optional<std::vector<int>> loaded_edges(const SlopeView& view, const Eigen:
   Basis start = purify_to_vertex(cone, apex, apex);
   std::vector<int> loaded;
   for (int k = 0; k < view.inequalities(); ++k) {
-    if (guess[k] > 0) loaded.push_back(k);
+    if (guess[k] > tolerance::kRay) loaded.push_back(k);
   }
   for (;;) {
     std::vector<std::pair<int, double>> others;
@@ -88,13 +88,12 @@ Eigen::VectorXd RecessionCone::ray(const Eigen::VectorXd& point, int inequalitie
 std::shared_ptr<const RecessionCone> find_recession_cone(const SlopeView& view, const Eigen::VectorXd& guess,
                                                          const LpOptions& options) {
   auto cone = std::make_shared<RecessionCone>();
-  if (choose_formulation_of_one(view) == Formulation::kEdge) {
-    if (auto loaded = loaded_edges(view, guess, options)) {
-      if (auto truncated = truncated_cone(*view.set, *loaded)) {
-        cone->edges = std::move(*loaded);
-        cone->truncated = std::move(*truncated);
-        return cone;
-      }
+  if (auto loaded = loaded_edges(view, guess, options)) cone->loaded = std::move(*loaded);
+  if (choose_formulation_of_one(view) == Formulation::kEdge && !cone->loaded.empty()) {
+    if (auto truncated = truncated_cone(*view.set, cone->loaded)) {
+      cone->edges = cone->loaded;
+      cone->truncated = std::move(*truncated);
+      return cone;
     }
   }
   cone->edges.resize(static_cast<std::size_t>(view.inequalities()));

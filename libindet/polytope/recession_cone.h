@@ -14,8 +14,9 @@ namespace indet {
 /// Where bodies are pressed together by few rays, as a row of disks between walls by one, this is far smaller
 /// than the set: its dimension is that of the rays.
 struct RecessionCone {
-  std::vector<int> edges;  ///< of the set; ascending
-  SlopeView truncated;     ///< {r : Σr ≤ 1} of it: its inequalities are those of the edges, then the cut
+  std::vector<int> edges;   ///< of the set; ascending
+  std::vector<int> loaded;  ///< those of the set that some ray loads, ascending; empty: not known
+  SlopeView truncated;      ///< {r : Σr ≤ 1} of it: its inequalities are those of the edges, then the cut
 
   /// A functional of the set's edges, on those of the cone.
   std::vector<std::pair<int, double>> restricted(const std::vector<std::pair<int, double>>& on_edges) const;

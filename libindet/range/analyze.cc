@@ -261,7 +261,6 @@ ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& opt
     reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
   if (!polytope.central) add_centre(polytope);
-  add_limits(packing, polytope);
   Enclosures enclosures =
       enclose_values(polytope, extrema, reactions.optima, interval_options(options, "enclosures").progress);
   enclosures.proven = enclosures.proven && prove_rays(packing, *polytope.exact, extrema.rays);

@@ -17,6 +17,7 @@
 #include "libindet/range/solution_bounds.h"
 #include "libindet/range/state_table.h"
 #include "libindet/range/tilted_multipliers.h"
+#include "libindet/range/unlimited_edges.h"
 
 namespace indet {
 namespace {
@@ -36,7 +37,8 @@ class Encloser {
         equations_(polytope),
         lightest_(polytope, equations_),
         everywhere_(polytope, equations_, lightest_, {}),
-        bounds_(polytope, equations_, everywhere_),
+        unlimited_(polytope, equations_),
+        bounds_(polytope, equations_, lightest_, everywhere_, unlimited_),
         sensitivity_(polytope, extrema.value),
         at_lightest_(point_of(everywhere_)) {}
 
@@ -91,24 +93,26 @@ class Encloser {
   }
 
   /// Upper bound of max g over F from any y.
-  double from_above(const BasisSystem& system, const DoubledFunctional& g) const {
-    return from_above(system, g, system.multipliers(g));
+  double from_above(const BasisSystem& system, const DoubledFunctional& g, bool is_level) const {
+    return from_above(system, g, is_level, system.multipliers(g));
   }
-  double from_above(const BasisSystem& system, const DoubledFunctional& g,
+  double from_above(const BasisSystem& system, const DoubledFunctional& g, bool is_level,
                     const BasisSystem::Solution& y) const {
-    const double bound = dual_bound(y);
-    if (std::isfinite(bound)) return bound;
+    if (is_level) return dual_bound(y, unlimited_.shift(y.residual));
     const auto tilted = tilted_multipliers(equations_, system, g, y.value, bounds_.strength());
-    return tilted ? dual_bound(*tilted) : kInfinity;
+    return tilted ? dual_bound(*tilted, 0) : kInfinity;
   }
-  double dual_bound(const BasisSystem::Solution& y) const {
+  /// From multipliers within a shift of y (UnlimitedEdges); without one, h ≤ 0 on the unlimited edges.
+  double dual_bound(const BasisSystem::Solution& y, double shift) const {
+    if (!std::isfinite(shift)) return kInfinity;
     double excess = 0;
-    for (Eigen::Index k = 0; k < y.residual.value.size(); ++k) {
-      const double h = y.residual.value[k] + widen_ * y.residual.error[k];
+    for (int k = 0; k < problem_.unknowns(); ++k) {
+      if (unlimited_.contains(k)) continue;
+      const double h = y.residual.value[k] + widen_ * (y.residual.error[k] + shift * unlimited_.reach()[k]);
       if (!(h <= 0)) excess += h * bounds_.strength()[k];
     }
     const BoundedNumber load = equations_.load_product(y.value);
-    return above(load.value, load.error + widen_ * excess);
+    return above(load.value, load.error + widen_ * (excess + shift * unlimited_.load_reach()));
   }
 
   /// Lower bound of max g over F: g at an admissible state near the point.
@@ -138,6 +142,10 @@ class Encloser {
   DoubledFunctional functional(Eigen::Index contact, int column) const {
     return doubled_component(problem_, first_, contact, column >= kMinT, sign_of(column));
   }
+  bool is_level(Eigen::Index contact, int column) const {
+    const std::pair<int, double> force(static_cast<int>(2 * contact) + (column >= kMinT ? 1 : 0), 1.0);
+    return unlimited_.is_level({&force, 1});
+  }
   /// y with Aᵀ y = g + costs.
   Eigen::VectorXd motion_of(const DoubledFunctional& g, Eigen::VectorXd costs) const {
     for (const auto& [k, coefficient] : g) costs[k] += coefficient.high;
@@ -158,7 +166,7 @@ class Encloser {
             const DoubledFunctional g = functional(i, column);
             if (g.empty()) continue;
             const BasisSystem::Solution y = system.multipliers(g);
-            store(i, column, from_below(g, point), from_above(system, g, y));
+            store(i, column, from_below(g, point), from_above(system, g, is_level(i, column), y));
             Eigen::VectorXd costs(std::ssize(basis.vertex.basis));
             for (std::size_t k = 0; k < basis.vertex.basis.size(); ++k) {
               const int edge = edges[static_cast<std::size_t>(basis.vertex.basis[k])];
@@ -183,7 +191,7 @@ class Encloser {
       enclosures_.sensitivity.set(i, column, sensitivity_.closed(i, column));
       return;
     }
-    const auto [lower, upper] = everywhere(g);
+    const auto [lower, upper] = everywhere(g, is_level(i, column));
     store(i, column, lower, upper);
     if (!lightest_.is_regular()) return enclosures_.sensitivity.set(i, column, kNotKnown);
     const Eigen::VectorXd motion = motion_of(g, Eigen::VectorXd::Zero(problem_.unknowns()));
@@ -192,10 +200,9 @@ class Encloser {
   }
 
   /// Of a functional that is the same throughout F: the bound from above holds from the other side, too.
-  SumBounds everywhere(const DoubledFunctional& g) const {
-    const DoubledFunctional less = opposite(g);
-    const double from_other_side = -from_above(everywhere_, less);
-    return {std::max(from_below(g, at_lightest_), from_other_side), from_above(everywhere_, g)};
+  SumBounds everywhere(const DoubledFunctional& g, bool is_level) const {
+    const double from_other_side = -from_above(everywhere_, opposite(g), is_level);
+    return {std::max(from_below(g, at_lightest_), from_other_side), from_above(everywhere_, g, is_level)};
   }
 
   /// `inner`, `outer`: of the maximum of the functional.
@@ -210,14 +217,19 @@ class Encloser {
 
   SumBounds enclose_sum(const SumAtOptimum& sum) const {
     const DoubledFunctional g = doubled_sum(problem_, sum.coefficients);
-    if (sum.bases.empty()) return everywhere(g);
+    std::vector<std::pair<int, double>> on_forces;
+    for (Eigen::Index c = 0; c < sum.coefficients.size(); ++c) {
+      if (sum.coefficients[c] != 0) on_forces.emplace_back(static_cast<int>(c), sum.coefficients[c]);
+    }
+    const bool is_level = unlimited_.is_level(on_forces);
+    if (sum.bases.empty()) return everywhere(g, is_level);
     std::vector<Vertex> located;
     for (const auto& [block, basis] : sum.bases)
       located.push_back(locate_vertex(polytope_.blocks[block].view, basis));
     BasisSystem::Vertices vertices;
     for (std::size_t k = 0; k < located.size(); ++k) vertices.emplace_back(sum.bases[k].first, &located[k]);
     const BasisSystem system(polytope_, equations_, lightest_, vertices);
-    return {from_below(g, point_of(system)), from_above(system, g)};
+    return {from_below(g, point_of(system)), from_above(system, g, is_level)};
   }
 
   const ForcePolytope& polytope_;
@@ -230,6 +242,7 @@ class Encloser {
   DoubledEquations equations_;
   LightestSystem lightest_;
   BasisSystem everywhere_;  ///< of the lightest vertex of every block
+  UnlimitedEdges unlimited_;
   SolutionBounds bounds_;
   SensitivityBounds sensitivity_;
   Point at_lightest_;

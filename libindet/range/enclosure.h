@@ -45,8 +45,8 @@ struct Enclosures {
 ///   from above, by weak duality, for any y:   g·x ≤ y·b + Σ_k max(0, h_k) X_k,   h = g − Aᵀ y
 ///
 ///     with y from the basis of the value (basis_system.h) and any bounds X_k of x_k over F
-///     (solution_bounds.h). Where F is unbounded there are none, and y is tilted so that every h_k ≤ 0
-///     (tilted_multipliers.h)
+///     (solution_bounds.h). Where rays load edges there are none, and h_k is exactly 0
+///     (unlimited_edges.h) or negative there (tilted_multipliers.h)
 ///
 ///   from below, by an admissible state: an exact solution is near the x of the basis, and moved by a share θ
 ///     towards a solution inside, which keeps a margin from every edge, it violates no x ≥ 0

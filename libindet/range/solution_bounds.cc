@@ -6,7 +6,9 @@
 
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
+#include "libindet/lp/vertex.h"
 #include "libindet/polytope/central_polytope.h"
+#include "libindet/polytope/interior.h"
 #include "libindet/polytope/unbounded_polytope.h"
 
 namespace indet {
@@ -34,7 +36,8 @@ Eigen::VectorXd reach_of_unknowns(const EquilibriumProblem& problem) {
 }  // namespace
 
 SolutionBounds::SolutionBounds(const ForcePolytope& polytope, const DoubledEquations& equations,
-                               const BasisSystem& lightest)
+                               const LightestSystem& lightest, const BasisSystem& everywhere,
+                               const UnlimitedEdges& unlimited)
     : polytope_(polytope), problem_(polytope.problem), equations_(equations) {
   if (polytope.central) {
     take_centre();
@@ -48,7 +51,8 @@ SolutionBounds::SolutionBounds(const ForcePolytope& polytope, const DoubledEquat
   interior_shift_ = shift(equations.residual(x));
   margin_ = interior_ - kWiden * interior_shift_ * reach_;
   has_interior_ = std::isfinite(interior_shift_) && (margin_.array() > 0).all();
-  bound_strengths(lightest);
+  bound_strengths(everywhere);
+  if (unlimited.any() && !polytope.unbounded) bound_limited_strengths(lightest, unlimited);
 }
 
 void SolutionBounds::take_centre() {
@@ -110,7 +114,7 @@ Eigen::VectorXd SolutionBounds::inexact_entries(const Eigen::VectorXd& weight) c
   return sums;
 }
 
-void SolutionBounds::bound_strengths(const BasisSystem& lightest) {
+void SolutionBounds::bound_strengths(const BasisSystem& everywhere) {
   strength_.setConstant(problem_.unknowns(), kInfinity);
   if (polytope_.unbounded) {
     const std::vector<double>& X = polytope_.unbounded->within->equations->strength_bounds();
@@ -123,12 +127,48 @@ void SolutionBounds::bound_strengths(const BasisSystem& lightest) {
     sum.push_back({k, {1, 0}});
     with_multipliers.push_back({k, {1 + polytope_.bounding_multipliers[k], 0}});
   }
-  const std::vector<Doubled> y = lightest.multipliers(with_multipliers).value;
+  const std::vector<Doubled> y = everywhere.multipliers(with_multipliers).value;
   const Bounded excess = equations_.reduced_costs(sum, y);
   const double share = std::max(0.0, kWiden * (excess.value + excess.error).maxCoeff());
   if (!(share < 0.5)) return;
   const BoundedNumber load = equations_.load_product(y);
   strength_.setConstant(kWiden * std::max(0.0, load.value.rounded() + load.error) / (1 - kWiden * share));
+}
+
+void SolutionBounds::bound_limited_strengths(const LightestSystem& lightest,
+                                             const UnlimitedEdges& unlimited) {
+  std::vector<std::pair<std::size_t, Vertex>> found;
+  DoubledFunctional sum;
+  for (std::size_t b = 0; b < polytope_.blocks.size(); ++b) {
+    const PolytopeBlock& block = polytope_.blocks[b];
+    std::vector<std::pair<int, double>> limited;
+    for (std::size_t k = 0; k < block.edges.size(); ++k) {
+      if (unlimited.contains(block.edges[k])) continue;
+      limited.emplace_back(static_cast<int>(k), 1.0);
+      sum.push_back({block.edges[k], {1, 0}});
+    }
+    const LpAnswer answer =
+        maximise_robustly(block.view, make_objective(block.view, std::move(limited)), block.lightest, {});
+    if (answer.status != LpStatus::kOptimal) return;
+    found.emplace_back(b, locate_vertex(block.view, answer.basis));
+  }
+  std::sort(sum.begin(), sum.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  BasisSystem::Vertices vertices;
+  for (const auto& [block, vertex] : found) vertices.emplace_back(block, &vertex);
+  const BasisSystem::Solution y = BasisSystem(polytope_, equations_, lightest, vertices).multipliers(sum);
+  const double shift = unlimited.shift(y.residual);
+  double share = 0;
+  for (int k = 0; k < problem_.unknowns(); ++k) {
+    if (unlimited.contains(k)) continue;
+    share =
+        std::fmax(share, kWiden * (y.residual.value[k] + y.residual.error[k] + shift * unlimited.reach()[k]));
+  }
+  if (!(share < 0.5)) return;
+  const BoundedNumber load = equations_.load_product(y.value);
+  const double bound = std::fmax(0, load.value.rounded() + load.error + shift * unlimited.load_reach());
+  for (int k = 0; k < problem_.unknowns(); ++k) {
+    if (!unlimited.contains(k)) strength_[k] = kWiden * bound / (1 - kWiden * share);
+  }
 }
 
 }  // namespace indet

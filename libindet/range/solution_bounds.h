@@ -5,6 +5,7 @@
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/basis_system.h"
 #include "libindet/range/doubled_equations.h"
+#include "libindet/range/unlimited_edges.h"
 
 namespace indet {
 
@@ -19,13 +20,14 @@ namespace indet {
 /// *A point inside.* Near `interior` is a solution with x_k ≥ margin_k > 0.
 ///
 /// *Strengths are limited*, x_k ≤ strength_k over F, by the centre, or because Σ x is: with y of the proof
-/// that F is bounded, (1 − max (1 − Aᵀ y)_k) Σ x ≤ y · b. Of an unbounded F some are, where it is known what
-/// no ray loads (ForcePolytope::unbounded).
+/// that F is bounded, (1 − max (1 − Aᵀ y)_k) Σ x ≤ y · b. Of an unbounded F those are that no ray loads: by
+/// ForcePolytope::unbounded, or likewise, with y of the largest sum of these x alone, 0 on the other edges.
 class SolutionBounds {
  public:
-  /// `lightest`: of the lightest vertex of every block.
+  /// `everywhere`: of the lightest vertex of every block.
   SolutionBounds(const ForcePolytope& polytope, const DoubledEquations& equations,
-                 const BasisSystem& lightest);
+                 const LightestSystem& lightest, const BasisSystem& everywhere,
+                 const UnlimitedEdges& unlimited);
 
   /// Of a point with this b − A x; +inf where nothing is proven.
   double shift(const Bounded& residual) const;
@@ -43,7 +45,8 @@ class SolutionBounds {
   void take_centre();
   void bound_right_inverse();
   Eigen::VectorXd inexact_entries(const Eigen::VectorXd& weight) const;
-  void bound_strengths(const BasisSystem& lightest);
+  void bound_strengths(const BasisSystem& everywhere);
+  void bound_limited_strengths(const LightestSystem& lightest, const UnlimitedEdges& unlimited);
 
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;

@@ -29,7 +29,7 @@ class Units:
         time = np.sqrt(self.length / self.acceleration)
         return {"1": 1, "mg": 1, "rad": 1, "r_max": 1, "mg r_max": 1, "sqrt(r_max/g)": 1, "s": 1, "length": self.length,
                 "mass": self.mass, "time": time, "acceleration": self.acceleration, "force": self.force,
-                "force2": self.force**2, "force/radian": self.force, "mass*length^2": self.mass * self.length**2,
+                "force2": self.force**2, "force/length": self.force / self.length, "force/radian": self.force, "mass*length^2": self.mass * self.length**2,
                 "length/time": self.length / time, "rad/time": 1 / time,
                 "force or force*length": self.force,
                 "force, force, force*length": np.array([self.force, self.force, self.force * self.length])}[unit]

@@ -186,6 +186,13 @@ Packing lattice_pile(int base, double mu) {
   return packing;
 }
 
+Packing lattice_between_walls(int base, double mu) {
+  Packing packing = lattice_pile(base, mu);
+  touch(packing, DiskId(0), Body::wall(add_wall(packing, {-1, 0}, {1, 0})), mu);
+  touch(packing, DiskId(base - 1), Body::wall(add_wall(packing, {2.0 * base - 1, 0}, {-1, 0})), mu);
+  return packing;
+}
+
 namespace {
 
 /// A body as the set of centres of disks of a given radius that touch it: a circle or a line.

@@ -101,6 +101,8 @@ Packing wedge_and_loose_disk(double phi, double mu, double loose_load);
 /// A triangular pile of a perfect lattice: `base` disks on a floor, base − 1 above them, …, 1. All disks
 /// touch their neighbours: many degenerate vertices. Stands for mu ≥ tan 15°.
 Packing lattice_pile(int base, double mu);
+/// The same with its lowest row between two walls: it can be pressed as one likes, and can still move across.
+Packing lattice_between_walls(int base, double mu);
 
 /// A pile in a box (floor and two walls), disk by disk: each rests on two bodies, one on either side of its
 /// centre, in one of the lowest places found. Radii in [0.7, 1], masses ∝ r². Friction of each contact: mu,
