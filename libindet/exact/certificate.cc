@@ -340,20 +340,6 @@ std::optional<std::vector<double>> find_falling_motion(const ContactProblem& pro
   return proves_emptiness(problem, rounded, zero) ? std::optional(std::move(rounded)) : std::nullopt;
 }
 
-bool proves_ray(const ContactProblem& problem, std::span<const double> guess, double zero) {
-  std::vector<const IntegerColumn*> columns;
-  std::vector<mpq_class> strengths;
-  for (int e = 0; e < problem.edges(); ++e) {
-    const double strength = guess[static_cast<std::size_t>(e)];
-    if (!problem.has_edge(e) || strength <= zero) continue;
-    columns.push_back(&problem.edge(e));
-    strengths.push_back(scaled(mpq_class(strength), -problem.edge(e).shift));
-  }
-  const auto ray = kernel_vector(columns, problem.rows(), strengths);
-  return ray && std::all_of(ray->numerator.begin(), ray->numerator.end(),
-                            [](const mpz_class& value) { return value > 0; });
-}
-
 bool proves_structure(const ContactProblem& problem, std::span<const Closing> closings,
                       std::optional<int> final_rank, std::size_t most_rows) {
   for (std::size_t n = 1; n <= closings.size(); ++n) {

@@ -58,11 +58,6 @@ std::optional<std::vector<double>> find_falling_motion(const ContactProblem& pro
                                                        std::span<const double> guess,
                                                        std::span<const Closing> closings, double zero);
 
-/// True if strengths near `guess` (one an edge) that are exactly 0 where the guess is below `zero`, and
-/// positive elsewhere, balance themselves: a direction in ker c ∩ K. It then grows each component whose sign
-/// is clear in the guess.
-bool proves_ray(const ContactProblem& problem, std::span<const double> guess, double zero);
-
 /// True if the rank of the equations is ContactProblem::rank(), which is a lower bound by itself.
 bool proves_rank(const ContactProblem& problem);
 

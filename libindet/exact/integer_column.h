@@ -2,6 +2,7 @@
 
 #include <gmpxx.h>
 
+#include <utility>
 #include <vector>
 
 namespace indet::exact {
@@ -13,6 +14,10 @@ struct IntegerColumn {
   std::vector<mpz_class> value;
   long shift = 0;
 };
+
+/// (row, true entry), rows ascending; entries are binary fractions.
+using Terms = std::vector<std::pair<int, mpq_class>>;
+IntegerColumn integer_terms(const Terms& terms);
 
 /// value · 2^power.
 mpq_class scaled(const mpq_class& value, long power);

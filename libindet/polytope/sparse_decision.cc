@@ -12,6 +12,7 @@
 #include "libindet/barrier/verified_motion.h"
 #include "libindet/base/tolerances.h"
 #include "libindet/exact/certificate.h"
+#include "libindet/exact/ray.h"
 #include "libindet/nullspace/null_space.h"
 #include "libindet/polytope/motion_rows.h"
 #include "libindet/polytope/unbounded_polytope.h"

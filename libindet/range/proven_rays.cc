@@ -1,17 +1,19 @@
 #include "libindet/range/proven_rays.h"
 
+#include <map>
 #include <span>
+#include <vector>
 
 #include "libindet/base/tolerances.h"
-#include "libindet/exact/certificate.h"
+#include "libindet/exact/ray.h"
+#include "libindet/range/pivot_preference.h"
 
 namespace indet {
 namespace {
 
-bool is_proven(const Packing& packing, const exact::ContactProblem& exact, const Eigen::VectorXd& ray) {
-  const std::span<const double> forces(ray.data(), static_cast<std::size_t>(ray.size()));
-  return exact::proves_ray(exact, exact::edge_growths(packing, forces), tolerance::kExactZero);
-}
+/// In regular arrays no ray is exact as it is: after so many, one after the other, that are not, the rest is
+/// moved at once.
+constexpr int kMostInVain = 8;
 
 }  // namespace
 
@@ -19,16 +21,29 @@ bool prove_rays(const Packing& packing, const exact::ContactProblem& exact, Rows
   if (rays.rows() == 0) return true;
   Eigen::VectorXd inner = rays.colwise().sum().transpose();
   inner /= inner.lpNorm<Eigen::Infinity>();
-  bool all = true;
-  for (Eigen::Index q = 0; all && q < rays.rows(); ++q) {
+  const auto growths = [&](const Eigen::VectorXd& ray) {
+    return exact::edge_growths(packing, std::span(ray.data(), static_cast<std::size_t>(ray.size())));
+  };
+  std::map<std::vector<int>, exact::RaysOnEdges> moved_to;  // most load the same edges
+  int in_vain = 0;
+  for (Eigen::Index q = 0; q < rays.rows(); ++q) {
     Eigen::VectorXd ray = rays.row(q).transpose();
-    if (is_proven(packing, exact, ray)) continue;
+    if (in_vain < kMostInVain) {
+      const bool is_proven = exact::proves_ray(exact, growths(ray), tolerance::kExactZero);
+      in_vain = is_proven ? 0 : in_vain + 1;
+      if (is_proven) continue;
+    }
     ray += tolerance::kInwardShift * inner;
     ray /= ray.lpNorm<Eigen::Infinity>();
-    all = is_proven(packing, exact, ray);
-    if (all) rays.row(q) = ray.transpose();
+    const std::vector<double> guess = growths(ray);
+    std::vector<int> edges = exact::loaded_edges(exact, guess, tolerance::kExactZero);
+    auto found = moved_to.find(edges);
+    if (found == moved_to.end())
+      found = moved_to.try_emplace(edges, exact, edges, pivot_preference(exact, edges)).first;
+    if (!found->second.contain_one_near(guess)) return false;
+    rays.row(q) = ray.transpose();
   }
-  return all;
+  return true;
 }
 
 }  // namespace indet

@@ -8,9 +8,9 @@
 
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/base/sparse_lu.h"
-#include "libindet/exact/basis_solver.h"
 #include "libindet/polytope/recession_cone.h"
 #include "libindet/polytope/unbounded_polytope.h"
+#include "libindet/range/pivot_preference.h"
 
 namespace indet {
 namespace {
@@ -31,6 +31,8 @@ std::vector<int> rows_of_exact(const ForcePolytope& polytope) {
   return result;
 }
 
+using exact::Terms;
+
 }  // namespace
 
 UnlimitedEdges::UnlimitedEdges(const ForcePolytope& polytope, const DoubledEquations& equations)
@@ -41,7 +43,7 @@ UnlimitedEdges::UnlimitedEdges(const ForcePolytope& polytope, const DoubledEquat
   if (polytope.status != PolytopeStatus::kUnbounded) return;
   find_edges();
   for (const int k : edges_) contains_[static_cast<std::size_t>(k)] = true;
-  if (edges_.empty() || !find_combinations() || !bound_inverse()) return;
+  if (edges_.empty() || !find_columns() || !bound_inverse()) return;
   std::vector<bool> is_in_J(static_cast<std::size_t>(equations.rows()), false);
   for (const int row : rows_) is_in_J[static_cast<std::size_t>(row)] = true;
   for (int k = 0; k < equations.columns(); ++k) {
@@ -64,7 +66,7 @@ void UnlimitedEdges::find_edges() {
   std::sort(edges_.begin(), edges_.end());
 }
 
-bool UnlimitedEdges::find_combinations() {
+bool UnlimitedEdges::find_columns() {
   const exact::ContactProblem& exact = *polytope_.exact;
   std::vector<bool> open(static_cast<std::size_t>(exact.edges()), false);
   std::map<int, int> edge_of_exact;
@@ -74,45 +76,48 @@ bool UnlimitedEdges::find_combinations() {
     edge_of_exact[number] = k;
   }
   const exact::ContactProblem cone = exact.restricted_to(open);
-  const std::vector<double> alike(static_cast<std::size_t>(exact.edges()), 0.0);
-  const std::vector<int> basis = cone.choose_basis(alike);
-  if (basis.empty() || std::ssize(basis) != cone.rank() || basis.size() > kMostColumns) return false;
+  std::vector<int> numbers;
+  for (const auto& [number, k] : edge_of_exact) numbers.push_back(number);
+  basis_ = cone.choose_basis(pivot_preference(exact, numbers));
+  if (basis_.empty() || std::ssize(basis_) != cone.rank() || basis_.size() > kMostColumns) return false;
   const std::vector<int> row_of_exact = rows_of_exact(polytope_);
   for (const int row : cone.independent_rows()) rows_.push_back(row_of_exact[static_cast<std::size_t>(row)]);
   if (std::find(rows_.begin(), rows_.end(), -1) != rows_.end()) return false;
 
-  std::vector<exact::IntegerColumn> columns;
-  for (const int number : basis) {
-    columns_.push_back(edge_of_exact.at(number));
-    columns.push_back(cone.on_independent_rows(cone.edge(number)));
+  std::vector<Terms> other_rows(static_cast<std::size_t>(cone.rows()));  // of the columns C
+  for (std::size_t c = 0; c < basis_.size(); ++c) {
+    columns_.push_back(edge_of_exact.at(basis_[c]));
+    const exact::IntegerColumn& column = cone.edge(basis_[c]);
+    square_.push_back(cone.on_independent_rows(column));
+    for (std::size_t e = 0; e < column.row.size(); ++e) {
+      const auto row = static_cast<std::size_t>(column.row[e]);
+      if (cone.row_number()[row] < 0)
+        other_rows[row].emplace_back(static_cast<int>(c), exact::scaled(column.value[e], -column.shift));
+    }
   }
   std::vector<const exact::IntegerColumn*> pointers;
-  for (const exact::IntegerColumn& column : columns) pointers.push_back(&column);
-  const auto solver = exact::BasisSolver::create(pointers);
-  if (!solver) return false;
+  for (const exact::IntegerColumn& column : square_) pointers.push_back(&column);
+  solver_ = exact::BasisSolver::create(std::move(pointers));
+  if (!solver_) return false;
   for (const auto& [number, k] : edge_of_exact) {
-    if (std::binary_search(basis.begin(), basis.end(), number)) continue;
+    if (std::binary_search(basis_.begin(), basis_.end(), number)) continue;
     const exact::IntegerColumn& column = cone.edge(number);
-    std::vector<mpz_class> right(basis.size());
-    const exact::IntegerColumn on_rows = cone.on_independent_rows(column);
-    for (std::size_t e = 0; e < on_rows.row.size(); ++e)
-      right[static_cast<std::size_t>(on_rows.row[e])] = on_rows.value[e];
-    const exact::Solution solution = solver->solve(std::move(right));
-    const exact::RationalVector& beta = solution.exact();
-    Combination combination = {{number, exact::scaled(mpq_class(-1), column.shift)}};
-    for (std::size_t c = 0; c < basis.size(); ++c) {
-      if (beta.numerator[c] != 0) combination.emplace_back(basis[c], beta[c]);
+    std::vector<mpz_class> right(basis_.size());
+    std::map<std::size_t, mpq_class> on_others;
+    for (std::size_t e = 0; e < column.row.size(); ++e) {
+      const auto row = static_cast<std::size_t>(column.row[e]);
+      const int place = cone.row_number()[row];
+      if (place >= 0) right[static_cast<std::size_t>(place)] = column.value[e];
+      if (place < 0) on_others[row] = column.value[e];
     }
+    combinations_.push_back(
+        {number, exact::scaled(mpq_class(1), column.shift), solver_->solve(std::move(right))});
     // It holds on the independent rows; on the others it must, too.
-    std::map<int, mpq_class> sums;
-    for (const auto& [edge, value] : combination) {
-      const exact::IntegerColumn& term = cone.edge(edge);
-      for (std::size_t e = 0; e < term.row.size(); ++e)
-        sums[term.row[e]] += value * exact::scaled(mpq_class(term.value[e]), -term.shift);
+    for (std::size_t row = 0; row < other_rows.size(); ++row) {
+      if (other_rows[row].empty() && !on_others.contains(row)) continue;
+      const mpq_class there = on_others.contains(row) ? on_others.at(row) : mpq_class(0);
+      if (combinations_.back().beta.compare(exact::integer_terms(other_rows[row]), there) != 0) return false;
     }
-    const auto vanishes = [](const auto& sum) { return sum.second == 0; };
-    if (!std::all_of(sums.begin(), sums.end(), vanishes)) return false;
-    combinations_.push_back(std::move(combination));
   }
   return true;
 }
@@ -171,17 +176,22 @@ bool UnlimitedEdges::is_level(std::span<const std::pair<int, double>> on_forces)
     const auto found = coefficients.find(component);
     return found == coefficients.end() ? mpq_class(0) : found->second;
   };
-  for (const Combination& combination : combinations_) {
-    mpq_class sum = 0;
-    for (const auto& [edge, value] : combination) {
-      if (polytope_.exact->is_slack(edge)) continue;
-      const int contact = edge / 2;
-      const mpq_class along = coefficient_of(2 * contact + 1) * polytope_.exact->mu(contact);
-      sum += value * (coefficient_of(2 * contact) + (edge % 2 == 0 ? along : mpq_class(-along)));
-    }
-    if (sum != 0) return false;
+  const auto on_edge = [&](int edge) -> mpq_class {
+    if (polytope_.exact->is_slack(edge)) return 0;
+    const int contact = edge / 2;
+    const mpq_class along = coefficient_of(2 * contact + 1) * polytope_.exact->mu(contact);
+    return coefficient_of(2 * contact) + (edge % 2 == 0 ? along : mpq_class(-along));
+  };
+  Terms terms;
+  for (std::size_t c = 0; c < basis_.size(); ++c) {
+    const mpq_class coefficient = on_edge(basis_[c]);
+    if (coefficient != 0) terms.emplace_back(static_cast<int>(c), coefficient);
   }
-  return true;
+  const exact::IntegerColumn on_columns = exact::integer_terms(terms);
+  return std::all_of(combinations_.begin(), combinations_.end(), [&](const Combination& combination) {
+    const mpq_class expected = on_edge(combination.edge) * combination.scale;
+    return terms.empty() ? expected == 0 : combination.beta.compare(on_columns, expected) == 0;
+  });
 }
 
 double UnlimitedEdges::shift(const Bounded& residual) const {

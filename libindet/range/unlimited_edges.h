@@ -2,11 +2,13 @@
 
 #include <gmpxx.h>
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "libindet/base/constants.h"
+#include "libindet/exact/basis_solver.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/doubled_equations.h"
 
@@ -44,10 +46,8 @@ class UnlimitedEdges {
   double load_reach() const { return load_reach_; }
 
  private:
-  /// Σ value · column of the exact edge = 0.
-  using Combination = std::vector<std::pair<int, mpq_class>>;
   void find_edges();
-  bool find_combinations();
+  bool find_columns();
   bool bound_inverse();
 
   const ForcePolytope& polytope_;
@@ -55,6 +55,15 @@ class UnlimitedEdges {
   std::vector<int> edges_;  ///< U, ascending
   std::vector<bool> contains_;
   std::vector<int> rows_, columns_;  ///< J and C
+  std::vector<int> basis_;           ///< C by numbers of the exact problem, ascending
+  std::vector<exact::IntegerColumn> square_;
+  std::unique_ptr<exact::BasisSolver> solver_;  ///< of A_JC
+  /// β of another column of U, by its number in the exact problem, times `scale`.
+  struct Combination {
+    int edge;
+    mpq_class scale;
+    exact::Solution beta;
+  };
   std::vector<Combination> combinations_;
   double inverse_norm_ = kInfinity;  ///< bound of ‖A_JC⁻ᵀ‖∞
   Eigen::VectorXd reach_;

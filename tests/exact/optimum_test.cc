@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libindet/exact/certificate.h"
+#include "libindet/exact/ray.h"
 #include "tests/support/extremes.h"
 #include "tests/support/periodic_lattice.h"
 #include "tests/support/rational_simplex.h"
@@ -120,6 +121,37 @@ TEST(Certificate, TellsARayFromNearlyOne) {
   EXPECT_TRUE(ray(1.5, 1));
   EXPECT_FALSE(ray(1.5, 0)) << "without its second edges it does not balance";
   EXPECT_FALSE(ray(0.9, 1));
+}
+
+/// Square arrays of disks in a box, turned so that normals are rounded, are pressed along rows and columns:
+/// near that ray is an exact one.
+TEST(Certificate, ProvesTheRayOfAConfinedArray) {
+  constexpr int kSide = 6;
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  const auto turned = [&](double x, double y) { return Vector2(c * x - s * y, s * x + c * y); };
+  Packing packing = zoo::empty_scene();
+  const auto wall = [&](double x, double y, double p, double q) {
+    return Body::wall(zoo::add_wall(packing, turned(x, y), turned(p, q)));
+  };
+  const double end = 2.0 * kSide;
+  const Body left = wall(0, 0, 1, 0), right = wall(end, 0, -1, 0);
+  const Body floor = wall(0, 0, 0, 1), lid = wall(0, end, 0, -1);
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const DiskId disk = zoo::add_disk(packing, turned(2 * i + 1, 2 * j + 1));
+      zoo::touch(packing, disk, i == 0 ? left : Body::disk(DiskId(disk.value() - kSide)), 0.3);
+      zoo::touch(packing, disk, j == 0 ? floor : Body::disk(DiskId(disk.value() - 1)), 0.3);
+      if (i == kSide - 1) zoo::touch(packing, disk, right, 0.3);
+      if (j == kSide - 1) zoo::touch(packing, disk, lid, 0.3);
+    }
+  }
+  const ContactProblem problem(packing);
+  std::vector<double> strengths(static_cast<std::size_t>(problem.edges()), 0.5);
+  EXPECT_TRUE(proves_ray(problem, strengths, 1e-9));
+  for (std::size_t e = 0; e < strengths.size(); ++e) strengths[e] += 1e-7 * std::sin(static_cast<double>(e));
+  EXPECT_TRUE(proves_ray(problem, strengths, 1e-9)) << "one is near";
+  strengths[0] = strengths[1] = 0;
+  EXPECT_FALSE(proves_ray(problem, strengths, 1e-9)) << "the first row leans on nothing";
 }
 
 TEST(Certificate, ProvesRankAndClosedEdges) {
