@@ -15,10 +15,10 @@
 namespace indet::app {
 namespace {
 
-std::string number_text(double number) {
+std::string number_text(double number, int digits = 4) {
   if (std::isnan(number)) return "–";
   if (std::isinf(number)) return "∞";
-  return fmt::format("{:.4g}", number);
+  return fmt::format("{:.{}g}", number, digits);
 }
 
 std::string value_text(const Limit& limit, double value) {
@@ -84,8 +84,8 @@ void print_steps(const Limit& limit, const LimitEnd& end) {
     print_row({is_last ? "just before" : value_text(limit, step.value),
                step.dim < 0 ? "–" : fmt::format("{}", step.dim), number_text(step.mean_delta_R),
                number_text(step.largest_delta_R), number_text(step.mean_delta_T),
-               number_text(step.largest_delta_T), number_text(step.r), number_text(step.inscribed_radius),
-               number_text(step.mean_width), number_text(step.sliding)});
+               number_text(step.largest_delta_T), number_text(step.r, 3), number_text(step.inscribed_radius),
+               number_text(step.mean_width, 3), number_text(step.sliding, 2)});
   }
   const double r_error = largest_error(end.steps, &LimitStep::r_error, &LimitStep::r);
   const double width_error = largest_error(end.steps, &LimitStep::mean_width_error, &LimitStep::mean_width);

@@ -65,6 +65,6 @@ inline constexpr StepField<double> kStepNumbers[] = {
 /// As F depends continuously on λ, its ranges there are those of that face but for about as much.
 /// Precondition: steps ≥ 1.
 std::vector<double> step_values(double present, double limit, int steps);
-inline constexpr double kStepBeforeLimit = 1e-6;
+inline constexpr double kStepBeforeLimit = 1e-4;
 
 }  // namespace indet

@@ -6,6 +6,7 @@ Argument: the indet executable.
 import json
 import math
 import pathlib
+import re
 import sys
 
 import h5py
@@ -160,6 +161,15 @@ class Limits(program.ProgramTest):
         self.assertIn("indet limit p.h5", done.stderr)
         done = self.run_indet("export", "p.limits.h5", "--style", "mechanism", "--limit", "3:largest", status=3)
         self.assertIn("there is no limit 3; the file has 1 limit", done.stderr)
+        done = self.run_indet("export", "p.limits.h5", "--style", "steps", status=3)
+        self.assertIn("there are no steps to disk=2,1,0 of ", done.stderr)
+
+    def test_a_picture_of_steps(self):
+        self.run_indet("limit", self.packing(program.groove(0.4)), "--tilt", "--steps", "4", "--quiet")
+        self.run_indet("export", "p.limits.h5", "--style", "steps", "--limit", "smallest", "-o", "s.svg")
+        picture = (self.folder / "s.svg").read_text()
+        for colour in ("10%,10%,10%", "0%,44.7%,69.8%", "0%,50%,35%", "83.5%,36.9%,0%"):
+            self.assertEqual(len(re.findall(f"fill:none[^>]*stroke:rgb\\({colour}", picture)), 4 + 1)  # one of the legend
 
     def test_steps(self):
         packing = self.packing(program.groove(0.4))
