@@ -43,7 +43,12 @@ class StepFinder {
   LimitStep find(double value) {
     step_.value = value;
     find_ranges();
+    if (step_.dim < 0) return step_;
     const ForcePolytope polytope = find_force_polytope(packing_);
+    if (polytope.dim != step_.dim) {  // the analysis has decided by exact arithmetic
+      step_.is_doubtful = 1;
+      return step_;
+    }
     if (polytope.status == PolytopeStatus::kPoint) describe_point(polytope);
     if (polytope.status == PolytopeStatus::kBounded) sample(polytope);
     return step_;

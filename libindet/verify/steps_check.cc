@@ -50,13 +50,18 @@ class StepsCheck {
       compare_.require(holds, "{} cannot be", place(field, k));
     };
     require("doubtful", step.is_doubtful == 0 || step.is_doubtful == 1);
+    if (step.dim == -1) {
+      for (const StepField<double>& field : kStepNumbers) require(field.name, std::isnan(step.*field.member));
+      compare_.call_unsolved(place("dim", k));
+      return;
+    }
     require("dim", step.dim >= end_.dim && step.dim <= 2 * packing_.contact_count());
     require("imprecise", step.imprecise >= 0 && step.imprecise <= objectives);
     require("failed", step.failed >= 0 && step.imprecise + step.failed <= objectives);
     for (const StepField<double>& field : kStepNumbers) require(field.name, is_size(step.*field.member));
     require("mean_delta_R", !(step.mean_delta_R > step.largest_delta_R));
     require("mean_delta_T", !(step.mean_delta_T > step.largest_delta_T));
-    require("mean_delta_R", step.failed > 0 || step.dim < 0 || !std::isnan(step.mean_delta_R));
+    require("mean_delta_R", step.failed > 0 || !std::isnan(step.mean_delta_R));
     // A ball is as wide as its diameter, whatever the direction.
     require("inscribed_radius",
             !(2 * step.inscribed_radius > (1 + tolerance::kStepAgreement) * step.mean_width));
@@ -65,8 +70,9 @@ class StepsCheck {
     require("sliding", !(step.sliding > step.most_sliding));
     const bool is_sampled = step.converged >= 0;
     require("converged", step.converged <= 1 && (step.dim != 0 || !is_sampled));
-    require("r", is_sampled || step.dim == 0 ? std::isfinite(step.r) && std::isfinite(step.inscribed_radius)
-                                             : std::isnan(step.r));
+    const bool is_point = step.dim == 0 && step.is_doubtful == 0;
+    require("r", is_sampled || is_point ? std::isfinite(step.r) && std::isfinite(step.inscribed_radius)
+                                        : std::isnan(step.r));
     require("dim", (step.dim == 0) == (step.r == 0) || !is_sampled);
   }
 

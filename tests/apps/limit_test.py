@@ -214,7 +214,7 @@ class Limits(program.ProgramTest):
                 ("inscribed_radius", (1, 2), 0.1, 5, "those beside it tell that it is at least"),
                 ("inscribed_radius", (1, 1), 0.9, 5, "inscribed_radius[1] cannot be"),
                 ("value", (1, 2), 0.9, 5, "steps/value[2]"),
-                ("dim", (1, 2), -1, 5, "dim[2] cannot be"),
+                ("dim", (1, 2), -1, 5, "mean_delta_R[2] cannot be"),
                 ("dim", (0, 2), 1, 3, "/limits/0/steps/dim: tells of an end that there is no way to"),
                 ("value", (1, 0), math.nan, 3, "/limits/0/steps/value: is NaN in part")):
             (self.folder / "bad.h5").write_bytes((self.folder / "p.limits.h5").read_bytes())

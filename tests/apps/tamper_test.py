@@ -225,7 +225,7 @@ class AnyChange(Tampered):
                           ["analyze", "g.h5", "--accuracy", "estimate", "--calibrate", "1"],
                           ["analyze", "g.h5", "--contacts", "sample:1"],
                           ["analyze", "b.h5"], ["analyze", "g.h5", "--smallest-distances"],
-                          ["limit", "b.h5", "--load", "wall=right,1,0", "--friction"],
+                          ["limit", "b.h5", "--load", "wall=right,1,0", "--friction", "--steps", "1"],
                           ["sample", "g.h5", "--method", "uniform", "--states", "2", "--covariance", "--shape"],
                           ["sample", "q.h5", "--samples", "5"],
                           ["simulate", "--protocol", "cd1", "--disks", "2", "--every", "1"]):

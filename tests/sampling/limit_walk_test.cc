@@ -144,6 +144,18 @@ TEST(LimitWalk, HasNoWayFromAPackingThatIsAtItsLimitOrFalls) {
   EXPECT_FALSE(fallen.has_way_to(fallen.smallest) || fallen.has_way_to(fallen.largest));
 }
 
+TEST(LimitWalk, TellsWhereThereIsNoState) {
+  const Packing packing = zoo::wedge(kPhi, kMu);
+  Limit limit = find_tilt(packing);
+  limit.largest.value = 2 * kPhi;  // twice as far as it stands
+  const std::vector<LimitStep> steps = walk_to_limit(packing, limit, limit.largest, 1);
+  EXPECT_TRUE(steps.front().is_certain());
+  EXPECT_FALSE(steps.back().is_certain());
+  EXPECT_EQ(steps.back().dim, -1);
+  for (const StepField<double>& field : kStepNumbers)
+    EXPECT_TRUE(std::isnan(steps.back().*field.member)) << field.name;
+}
+
 TEST(LimitWalk, IsTheSameForAnyNumberOfThreads) {
   const Packing packing = zoo::random_pile(1, 6, 0.5);
   const Limit limit = find_tilt(packing);
