@@ -62,7 +62,7 @@ inline constexpr StepField<double> kStepNumbers[] = {
 
 /// λ_k = present + (k/n)(limit − present), k = 0 … n − 1, and one more, which is kStepBeforeLimit of the way
 /// before the limit: at the limit itself F is a face without an interior, and rounding would decide about it.
-/// As F depends continuously on λ, its ranges there are those of that face but for about as much.
+/// F goes over into that face continuously, but how fast is not known: a range may fall by much on the rest.
 /// Precondition: steps ≥ 1.
 std::vector<double> step_values(double present, double limit, int steps);
 inline constexpr double kStepBeforeLimit = 1e-4;
