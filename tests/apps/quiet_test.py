@@ -20,7 +20,7 @@ class Quiet(program.ProgramTest):
         ["import", "--format", "csv", "p", "-o", "p.h5"],
         ["analyze", "p.h5"],
         ["analyze", "p.h5", "--method", "pivoting-paper", "--contacts", "sample:2", "-o", "r.h5"],
-        ["limit", "p.h5", "--tilt"],
+        ["limit", "p.h5", "--tilt", "--steps", "1"],
         ["compare", "p.h5"],
         ["inspect", "p.ranges.h5"],
         ["inspect", "s.h5"],
