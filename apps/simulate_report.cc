@@ -58,7 +58,7 @@ std::string in_degrees(double angle, const char* format = "{:.2f}°") {
 }
 
 std::string describe_row(const sim::TiltRow& row, int disks) {
-  return fmt::format("at {}: M = {}, {}, 2M − 3N = {}", in_degrees(row.angle), row.contacts,
+  return fmt::format("at {}: {}, {}, 2M − 3N = {}", in_degrees(row.angle), counted(row.contacts, "contact"),
                      counted(row.sliding, "sliding contact"), 2 * row.contacts - 3 * disks);
 }
 

@@ -108,7 +108,7 @@ class Tilt(program.ProgramTest):
         self.groove_at_rest()
         done = self.run_indet(*TILT, "0.5", "--every", "5", "-o", "t.h5")
         self.assertIn("disk 0 had moved by 0.001 r_max at 10.5", done.stdout)
-        self.assertIn("at 0.00°: M = 2", done.stdout)
+        self.assertIn("at 0.00°: 2 contacts", done.stdout)
         with h5py.File(self.folder / "t.h5") as file:
             self.assertGreater(len(file["trajectory/time"]), 3)
             x = file["trajectory/position"][:, 0]
