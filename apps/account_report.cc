@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <string>
 
 #include "apps/say.h"
 #include "apps/wording.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <initializer_list>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <numbers>
