@@ -228,7 +228,8 @@ class AnyChange(Tampered):
                           ["limit", "b.h5", "--load", "wall=right,1,0", "--friction", "--steps", "1"],
                           ["sample", "g.h5", "--method", "uniform", "--states", "2", "--covariance", "--shape"],
                           ["sample", "q.h5", "--samples", "5"],
-                          ["simulate", "--protocol", "cd1", "--disks", "2", "--every", "1"]):
+                          ["simulate", "--protocol", "cd1", "--disks", "2", "--every", "1"],
+                          ["simulate", "--protocol", "cd1", "--from", "q.h5", "--tilt-rate", "2", "--tilt-limit", "1"]):
             self.run_indet(*arguments, "-o", "kind.h5", "--overwrite")
             yield "kind.h5"
         self.run_indet("ensemble", "--protocols", "cd1", "--seeds", "1", "--disks", "4", "--samples", "5", "-o", "e")
