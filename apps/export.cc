@@ -25,6 +25,7 @@
 #include "libindet/base/error.h"
 #include "libindet/drawing/mechanism_picture.h"
 #include "libindet/drawing/packing_picture.h"
+#include "libindet/drawing/steps_picture.h"
 #include "libindet/drawing/yield_curve.h"
 #include "libindet/io/csv_writer.h"
 #include "libindet/io/limits_file.h"
@@ -251,6 +252,20 @@ void export_yield_curve(const std::filesystem::path& output, const ExportOptions
   draw_yield_curve(output, limits, caption(options, packing, "multiples of two loads at which it yields"));
 }
 
+void export_steps(const std::filesystem::path& output, const ExportOptions& options, const Hdf5File& file,
+                  const Packing& packing) {
+  const ChosenLimit chosen = choose_limit(options, file, "--style steps");
+  const LimitEnd& end = chosen.end();
+  if (end.steps.empty())
+    throw InputError(
+        fmt::format("{}: there are no steps to {}; --steps of indet limit makes them, if there is a way",
+                    options.file, chosen.description()));
+  std::string text = fmt::format("on the way to {}, relative to its beginning; dim F = {}",
+                                 chosen.description(), end.steps.front().dim);
+  if (end.dim >= 0) text += fmt::format(", at the limit {}", end.dim);
+  draw_steps(output, chosen.limit, end, caption(options, packing, text));
+}
+
 int run(ExportOptions options, const Context& context) {
   const Hdf5File file = open_packing(options.file);
   const Packing packing = read_packing(file);
@@ -279,6 +294,8 @@ int run(ExportOptions options, const Context& context) {
     write_numbers(output, format, packing, state, ranges ? &*ranges : nullptr, context);
   } else if (options.style == "yield-curve") {
     export_yield_curve(output, options, file, packing);
+  } else if (options.style == "steps") {
+    export_steps(output, options, file, packing);
   } else if (options.style == "mechanism") {
     export_mechanism(output, options, file, packing, ranges);
   } else if (options.style == "delta-R") {
@@ -331,16 +348,18 @@ Command add_export(CLI::App& root) {
           "What a picture shows. forces: the contact forces of the state; delta-R: the range of each normal "
           "force as a colour; mechanism: how the disks move at the limit of --limit, or, with force ranges, "
           "how "
-          "a packing falls that cannot stand; yield-curve: the map of two loads that limit --map made")
-      ->check(CLI::IsMember({"forces", "delta-R", "mechanism", "yield-curve"}))
+          "a packing falls that cannot stand; yield-curve: the map of two loads that limit --map made; "
+          "steps: "
+          "how far forces can vary on the way to the limit of --limit, that limit --steps made")
+      ->check(CLI::IsMember({"forces", "delta-R", "mechanism", "yield-curve", "steps"}))
       ->capture_default_str();
   const auto check_limit = [](const std::string& text) -> std::string {
     return parse_limit(text) ? "" : "must be largest or smallest, or K:largest, K:smallest of limit K";
   };
   command
       ->add_option("--limit", options->limit,
-                   "Which end of which limit --state limit and --style mechanism mean: largest, smallest, or "
-                   "K:largest, K:smallest of limit K of the file, from 0 on")
+                   "Which end of which limit --state limit, --style mechanism and --style steps mean: "
+                   "largest, smallest, or K:largest, K:smallest of limit K of the file, from 0 on")
       ->check(CLI::Validator(check_limit, "LIMIT"))
       ->capture_default_str();
   command->add_option(

@@ -40,6 +40,7 @@ FileContents read_contents(const Hdf5File& file) {
     contents.provenance[name] = file.string_attribute("/provenance", name);
   }
   contents.simulation = account_of(file, "/simulation", {"ending", "reason", "method", "polish"});
+  contents.tilt = account_of(file, "/tilt", {"ending"});
   contents.sampling = account_of(file, "/sampling", {"method"});
   contents.trajectory = trajectory_of(file);
   return contents;

@@ -16,7 +16,7 @@
 
 namespace indet::app {
 
-/// Attributes of /simulation or /sampling, which describe how the forces came about.
+/// Attributes of /simulation, /tilt or /sampling, which describe how the forces came about.
 struct Account {
   std::map<std::string, std::string> texts;
   std::map<std::string, double> numbers;
@@ -39,7 +39,7 @@ struct FileContents {
   BalanceReport balance;
   std::optional<ForceRanges> ranges;
   std::vector<Limit> limits;
-  std::optional<Account> simulation, sampling;
+  std::optional<Account> simulation, tilt, sampling;
   std::optional<TrajectoryExtent> trajectory;
   Digests digests;
   std::map<std::string, std::string> provenance;

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/account_report.h"
 #include "apps/command.h"
 #include "apps/distance_report.h"
 #include "apps/ensemble/presentation/comparison.h"
@@ -101,6 +102,7 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
     json["sliding"] = contents.balance.sliding;
   }
   if (contents.simulation) json["simulation"] = to_json(*contents.simulation);
+  if (contents.tilt) json["tilt"] = to_json(*contents.tilt);
   if (contents.sampling) json["sampling"] = to_json(*contents.sampling);
   if (contents.trajectory) {
     json["trajectory"] = {{"frames", contents.trajectory->frames},
@@ -127,8 +129,6 @@ nlohmann::json to_json(const std::string& path, const FileContents& contents) {
   }
   return json;
 }
-
-void print_line(const std::string& name, const std::string& value) { say("{:<20}{}\n", name, value); }
 
 std::string span_text(const Extremes& e, const char* unit) {
   if (e.count == 0) return "none";
@@ -200,50 +200,6 @@ void print_packing(const FileContents& contents) {
                            balance.forces_known ? "" : " (of these disks)"));
   }
   print_line("  at their limit", describe_sliding(balance.sliding, balance.non_transmitting));
-}
-
-void print_simulation(const Account& s) {
-  print_line("simulation", s.texts.at("method"));
-  print_line("  ended", s.texts.at("reason"));
-  print_line("  steps",
-             fmt::format("{} of length {}; in {} the limit of sweeps was reached",
-                         s.text_of("steps", "{:.0f}"), s.text_of("dt"), s.text_of("capped_steps", "{:.0f}")));
-  print_line("  raw forces", fmt::format("balance to {} mg", s.text_of("raw_residual", "{:.1e}")));
-  print_line(
-      "  polished forces",
-      fmt::format(
-          "{} to {} mg, {} mg away from the raw ones",
-          s.texts.at("polish") == "balanced" ? "balance" : "do not balance (" + s.texts.at("polish") + "):",
-          s.text_of("residual", "{:.1e}"), s.text_of("distance", "{:.1e}")));
-  print_line("  mean R, overlap",
-             fmt::format("{} mg, {} r_max", s.text_of("mean_R"), s.text_of("mean_overlap", "{:.1e}")));
-}
-
-void print_radius(const Account& s) {
-  print_line("  radius r", fmt::format("{} ± {} mg; distances from the centre vary by {} mg", s.text_of("r"),
-                                       s.text_of("r_error", "{:.2g}"), s.text_of("spread")));
-}
-
-void print_uniform_sampling(const Account& s) {
-  print_line("samples", fmt::format("{} of the uniform distribution, dimension {}, {}",
-                                    s.text_of("samples", "{:.0f}"), s.text_of("dim", "{:.0f}"),
-                                    s.text_of("converged", "{:.0f}") == "1" ? "converged" : "NOT converged"));
-  print_radius(s);
-  print_line("  chains",
-             fmt::format("{}, R-hat up to {}, at least {} effective samples", s.text_of("chains", "{:.0f}"),
-                         s.text_of("rhat", "{:.4f}"), s.text_of("ess", "{:.0f}")));
-  print_line("  centre", fmt::format("{} mg away from the packing's forces", s.text_of("start_distance")));
-  print_line("  balance", fmt::format("to {} mg", s.text_of("worst_residual", "{:.1e}")));
-}
-
-void print_sampling(const Account& s) {
-  if (s.texts.at("method") == "uniform") return print_uniform_sampling(s);
-  print_line("samples", fmt::format("{}, by perturb-and-resolve, {} accepted; chains: {}",
-                                    s.text_of("samples", "{:.0f}"), s.text_of("accepted", "{:.0f}"),
-                                    s.text_of("chains", "{:.0f}")));
-  print_radius(s);
-  print_line("  centre", fmt::format("{} mg away from the packing's forces", s.text_of("start_distance")));
-  print_line("  balance", fmt::format("accepted samples to {} mg", s.text_of("worst_residual", "{:.1e}")));
 }
 
 /// Ranges of what walls and fixed disks bear, the first ones.
@@ -362,6 +318,7 @@ int run(const std::string& given, const Context& context) {
   print_line("file", path);
   print_packing(contents);
   if (contents.simulation) print_simulation(*contents.simulation);
+  if (contents.tilt) print_tilt(*contents.tilt);
   if (contents.trajectory) {
     print_line("trajectory",
                fmt::format("{}, time {:.4g} … {:.4g}",

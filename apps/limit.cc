@@ -25,6 +25,7 @@
 #include "libindet/io/limits_file.h"
 #include "libindet/io/table.h"
 #include "libindet/lp/glpk_problem.h"
+#include "libindet/sampling/limit_walk.h"
 
 namespace indet::app {
 namespace {
@@ -39,6 +40,7 @@ struct LimitCommand {
   int map = 0;
   bool friction = false;
   std::string friction_of = "all";
+  int steps = 0;
 };
 
 /// The contacts of --friction-of.
@@ -74,6 +76,32 @@ Limit find_on_map(const Packing& packing, const LimitCommand& options, const std
   return limit;
 }
 
+/// On the way to each end that there is a way to; warns if there is none.
+void find_steps(const Packing& packing, int steps, const Context& context, std::vector<Limit>& limits) {
+  bool is_any = false;
+  LimitWalkOptions options;
+  options.threads = context.thread_count();
+  options.progress = context.progress();
+  for (Limit& limit : limits) {
+    for (LimitEnd* end : {&limit.smallest, &limit.largest}) {
+      if (!limit.has_way_to(*end)) continue;
+      end->steps = walk_to_limit(packing, limit, *end, steps, options);
+      is_any = true;
+    }
+  }
+  if (!is_any)
+    context.warn("--steps: no way to go, since the packing stands at its limit, at none, or without any");
+}
+
+bool has_certain_steps(const std::vector<Limit>& limits) {
+  const auto is_certain = [](const LimitEnd& end) {
+    return std::all_of(end.steps.begin(), end.steps.end(), [](const LimitStep& s) { return s.is_certain(); });
+  };
+  return std::all_of(limits.begin(), limits.end(), [&](const Limit& limit) {
+    return is_certain(limit.smallest) && is_certain(limit.largest);
+  });
+}
+
 int run(const LimitCommand& options, const Context& context) {
   if (!options.tilt && options.loads.empty() && !options.friction)
     throw UsageError("limit needs to know what to vary: --tilt, --load or --friction");
@@ -83,6 +111,9 @@ int run(const LimitCommand& options, const Context& context) {
     throw UsageError("--friction-of has no effect without --friction");
   if (options.ignore_below && !options.tilt)
     throw UsageError("--ignore-below has no effect without --tilt, whose angles it is about");
+  if (options.steps > 0 && options.map > 0)
+    throw UsageError(
+        "--steps goes to the limit of each --tilt, --load and --friction, not to those of a --map");
   const Packing packing = read_packing(open_packing(options.packing));
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.packing).replace_extension(".limits.h5");
@@ -121,6 +152,12 @@ int run(const LimitCommand& options, const Context& context) {
         options.friction_of == "all" ? "friction" : fmt::format("friction of {}", options.friction_of);
     add([&] { return find_friction(packing, name, scaled_contacts(options, packing)); });
   }
+  if (options.steps > 0) {
+    const auto start = std::chrono::steady_clock::now();
+    find_steps(packing, options.steps, context, limits);
+    provenance.seconds["steps"] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
   write_limits(output, packing, limits, provenance);
 
   if (context.json) {
@@ -135,6 +172,7 @@ int run(const LimitCommand& options, const Context& context) {
   }
   const auto is_decided = [](const Limit& limit) { return limit.is_decided(); };
   if (!std::all_of(limits.begin(), limits.end(), is_decided)) return kUncertain;
+  if (!has_certain_steps(limits)) return kUncertain;
   const auto stands = [](const Limit& limit) { return limit.stands(); };
   return std::all_of(limits.begin(), limits.end(), stands) ? kDone : kNoAdmissibleState;
 }
@@ -190,6 +228,19 @@ Command add_limit(CLI::App& root) {
           "disks (those between disks), or a list like 3,7,12-20")
       ->type_name("all|walls|disks|LIST")
       ->capture_default_str();
+  const auto check_steps = [](const std::string& text) -> std::string {
+    std::int64_t number = 0;
+    return parse_number(text, &number) && number >= 1 && number <= 1000 ? ""
+                                                                        : "must be a number from 1 to 1000";
+  };
+  command
+      ->add_option("--steps", options->steps,
+                   "How the polytope of admissible states shrinks on the way to each limit: ranges of the "
+                   "forces, sizes and sliding contacts of a uniform sample (seed 0, at least 100 effective "
+                   "states) in n equal steps from the packing as it is, and just before the limit; export "
+                   "--style steps draws them")
+      ->type_name("n")
+      ->check(CLI::Validator(check_steps, "n"));
   return {command, [options](const Context& context) { return run(*options, context); }};
 }
 

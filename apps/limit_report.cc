@@ -9,6 +9,7 @@
 
 #include "apps/ranges_json.h"
 #include "apps/say.h"
+#include "apps/step_report.h"
 #include "apps/wording.h"
 #include "libindet/base/constants.h"
 #include "libindet/limit/mechanism.h"
@@ -82,6 +83,7 @@ void print_end(const Packing& whole, const Limit& limit, const LimitEnd& end, bo
   if (end.sliding >= 0)
     say("            {}, {}{}\n", describe_sliding(end.sliding, end.non_transmitting),
         describe_expected_dimension(packing), end.dim < 0 ? "" : fmt::format("; dim F = {}", end.dim));
+  print_steps(limit, end);
 }
 
 /// "all", "12 of 68".
@@ -100,7 +102,7 @@ void print_friction(const Packing& packing, const Limit& limit) {
         std::isinf(end.lower) ? "" : fmt::format(" (proven up to {:.3g} times of what there is)", end.lower));
   } else if (end.outcome == LimitOutcome::kReached && end.value == 0 && limit.is_attained) {
     say("  no friction is needed\n");
-    return;
+    return print_steps(limit, end);
   } else if (end.outcome == LimitOutcome::kReached && end.value == 0) {
     say("  with {:.1e} times the friction that there is it still stands, with none it does not\n", end.upper);
   } else {
@@ -112,6 +114,7 @@ void print_friction(const Packing& packing, const Limit& limit) {
     return;
   }
   if (end.motion.disks.rows() > 0) say("            {}\n", disks_text(packing, moving_disks(end.motion)));
+  print_steps(limit, end);
 }
 
 void print_limit(const Packing& whole, const Limit& limit) {
@@ -177,6 +180,7 @@ nlohmann::json end_to_json(const Packing& packing, const Limit& limit, const Lim
     json["non_transmitting"] = end.non_transmitting;
   }
   if (end.dim >= 0) json["dim"] = end.dim;
+  if (!end.steps.empty()) json["steps"] = steps_to_json(end.steps);
   if (end.motion.disks.rows() > 0) {
     const MotionCount count = count_motions(packing, limit, end);
     json["opening"] = count.open;

@@ -1,5 +1,6 @@
 #include "apps/simulate_arguments.h"
 
+#include "apps/numbers.h"
 #include "libsim/molecular_preset.h"
 
 namespace indet::app {
@@ -92,6 +93,37 @@ void add_method_options(CLI::App& command, SimulateOptions& o) {
                   "... and the kinetic energy per disk is below this (default: 1e-12)")
       ->group(group);
   command.add_option("--time-limit", o.time_limit, "Largest simulated time (default: 6 sqrt(Ly/g))")
+      ->group(group);
+}
+
+void add_tilt_options(CLI::App& command, SimulateOptions& o) {
+  const char* group = "Tilt (of the packing of --from, by the simulator of --protocol; angles in degrees)";
+  command
+      .add_option("--tilt-rate", o.tilt_rate,
+                  "Turn gravity until disks move, by so many degrees per sqrt(r_max/g); positive: "
+                  "counter-clockwise. 0.02 finds angles to about 0.1 degrees")
+      ->group(group);
+  command.add_option("--tilt-limit", o.tilt_limit, "Turn it no further than this")
+      ->check(positive())
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--tilt-moved", o.tilt_moved, "End when so many disks have moved")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--tilt-distance", o.tilt_distance,
+                  "A disk has moved once its centre is further than this, in r_max, from where it was")
+      ->check(positive())
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option(
+          "--tilt-every", o.tilt_every,
+          "Interval of angle between the states of which the file tells, and to which the packing that is "
+          "written belongs")
+      ->check(positive())
+      ->capture_default_str()
       ->group(group);
 }
 

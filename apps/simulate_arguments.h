@@ -25,17 +25,23 @@ struct SimulateOptions {
   std::optional<double> stiffness, damping, dt, tolerance, alpha, restitution, tangential_restitution;
   std::optional<int> sweeps, start_sweeps;
   std::optional<double> residual, kinetic_energy, time_limit;
+  // Tilt, in degrees.
+  std::optional<double> tilt_rate;
+  double tilt_limit = 90, tilt_every = 0.05, tilt_distance = 1e-3;
+  int tilt_moved = 1;
   // Run.
   double every = 0;
   double checkpoint = 600;
   bool resume = false;
   bool overwrite = false;
 
+  bool tilts() const { return tilt_rate.has_value(); }
   sim::Protocol protocol() const { return sim::protocol_from(protocol_name).value(); }
 };
 
-/// Both: `o` must outlive the command.
+/// `o` must outlive the command.
 void add_scene_options(CLI::App& command, SimulateOptions& o);
 void add_method_options(CLI::App& command, SimulateOptions& o);
+void add_tilt_options(CLI::App& command, SimulateOptions& o);
 
 }  // namespace indet::app

@@ -48,7 +48,7 @@ Verification check_digests(const Hdf5File& file) {
     compare.leave_unchecked("texts (a version of indet wrote the file that stored no digest of them)");
   // Groups of which nothing is computed again.
   std::string accounts;
-  for (const char* group : {"/simulation", "/trajectory", "/ensemble"}) {
+  for (const char* group : {"/simulation", "/tilt", "/trajectory", "/ensemble"}) {
     if (file.has(group)) accounts += fmt::format("{}{}", accounts.empty() ? "" : ", ", group);
   }
   if (!accounts.empty()) compare.leave_unchecked(accounts + " (simulations are not repeated)");

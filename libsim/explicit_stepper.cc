@@ -38,9 +38,14 @@ ExplicitStepper::ExplicitStepper(World world, const std::vector<ContactState>& c
     loaded = loaded || world_.load_x[i] != 0 || world_.load_y[i] != 0 || world_.load_torque[i] != 0;
   }
   if (!loaded) loads_.clear();
-  fall_ = Lanes{dt * world_.gravity.x(), dt * world_.gravity.y()};
+  set_gravity(world_.gravity);
   neighbours_.rebuild(world_, 0);
   place_springs(contacts);
+}
+
+void ExplicitStepper::set_gravity(const Vector2& gravity) {
+  world_.gravity = gravity;
+  fall_ = Lanes{dt_ * gravity.x(), dt_ * gravity.y()};
 }
 
 double ExplicitStepper::suitable_skin() const {

@@ -21,6 +21,7 @@ class ExplicitStepper : public Stepper {
   ExplicitStepper(World world, const std::vector<ContactState>& contacts, const SpringLaw& law, double dt);
 
   void advance(int steps) override;
+  void set_gravity(const Vector2& gravity) override;
   double dt() const override { return dt_; }
   const World& world() const override { return world_; }
   std::vector<ContactState> state() const override;

@@ -57,6 +57,7 @@ class ImplicitStepper : public Stepper {
   ImplicitStepper(World world, std::vector<ContactState> contacts, const ImplicitOptions& options);
 
   void advance(int steps) override;
+  void set_gravity(const Vector2& gravity) override { world_.gravity = gravity; }
   double dt() const override { return options_.dt; }
   const World& world() const override { return world_; }
   std::vector<ContactState> state() const override;

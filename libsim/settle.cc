@@ -13,8 +13,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kProgressSeconds = 0.1;
-
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -26,18 +24,6 @@ StepperReport sum(const StepperReport& before, const StepperReport& now) {
   total.sweeps += before.sweeps;
   total.contact_updates += before.contact_updates;
   return total;
-}
-
-Frame frame_of(const Stepper& stepper, double time) {
-  const World& world = stepper.world();
-  return {.time = time,
-          .x = world.x,
-          .y = world.y,
-          .angle = world.angle,
-          .vx = world.vx,
-          .vy = world.vy,
-          .omega = world.omega,
-          .contacts = stepper.forces()};
 }
 
 /// Which disk keeps the state from being static.
@@ -60,6 +46,18 @@ std::string describe_motion(const World& world, const Settled& settled) {
 }
 
 }  // namespace
+
+Frame frame_of(const Stepper& stepper, double time) {
+  const World& world = stepper.world();
+  return {.time = time,
+          .x = world.x,
+          .y = world.y,
+          .angle = world.angle,
+          .vx = world.vx,
+          .vy = world.vy,
+          .omega = world.omega,
+          .contacts = stepper.forces()};
+}
 
 Settled settle(Stepper& stepper, const StopCriteria& criteria, int stride, const Listener& listener,
                const Checkpoint* start) {

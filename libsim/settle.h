@@ -34,6 +34,8 @@ struct Frame {
   std::vector<ContactState> contacts;
 };
 
+Frame frame_of(const Stepper& stepper, double time);
+
 /// A run that can be continued: with the same options it goes on as if it had never stopped, to the last bit.
 struct Checkpoint {
   World world;
@@ -41,6 +43,9 @@ struct Checkpoint {
   StepperReport report;
   int calm_steps = 0;  ///< Steps for which the static criterion has held.
 };
+
+/// Of run time, between two reports of progress.
+inline constexpr double kProgressSeconds = 0.1;
 
 /// What a caller wants to hear while a run goes on.
 struct Listener {

@@ -138,20 +138,31 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
                     const SimulationOptions& options, const Listener& listener, const Checkpoint* resume) {
   const World& world = resume ? resume->world : start;
   if (const auto reason = options.defect(world)) throw InputError(*reason);
-  const bool rigid = options.simulator == Simulator::kContactDynamics;
   const auto stepper = make_stepper(world, resume ? resume->contacts : contacts, options);
-  Simulation result;
-  result.implicit_damping = !rigid && is_implicit(options.molecular_dynamics);
-  result.dt = stepper->dt() / world.units().time;
-  const StopCriteria criteria{
-      .kinetic_energy = options.kinetic_energy,
-      .calm_steps = options.calm_steps,
-      .residual = rigid ? options.contact_dynamics.residual : options.molecular_dynamics.residual,
-      .time_limit = options.time_limit};
-  const int stride = rigid || result.implicit_damping ? 1 : kExplicitStride;
-  result.settled = settle(*stepper, criteria, stride, listener, resume);
+  const Settled settled = settle(*stepper, stop_criteria(options), stride_of(options), listener, resume);
+  return conclude(*stepper, settled, options);
+}
 
-  result.raw = packing_of(stepper->world(), stepper->forces());
+int stride_of(const SimulationOptions& options) {
+  const bool rigid = options.simulator == Simulator::kContactDynamics;
+  return rigid || is_implicit(options.molecular_dynamics) ? 1 : kExplicitStride;
+}
+
+StopCriteria stop_criteria(const SimulationOptions& options) {
+  const bool rigid = options.simulator == Simulator::kContactDynamics;
+  return {.kinetic_energy = options.kinetic_energy,
+          .calm_steps = options.calm_steps,
+          .residual = rigid ? options.contact_dynamics.residual : options.molecular_dynamics.residual,
+          .time_limit = options.time_limit};
+}
+
+Simulation conclude(const Stepper& stepper, const Settled& settled, const SimulationOptions& options) {
+  const bool rigid = options.simulator == Simulator::kContactDynamics;
+  Simulation result;
+  result.settled = settled;
+  result.implicit_damping = !rigid && is_implicit(options.molecular_dynamics);
+  result.dt = stepper.dt() / stepper.world().units().time;
+  result.raw = packing_of(stepper.world(), stepper.forces());
   PolishOptions polish_options = options.polish;
   // Elastic forces of a sliding contact are off the limit by what damping still contributes.
   if (!rigid)

@@ -81,6 +81,14 @@ Simulation simulate(const World& start, const std::vector<ContactState>& contact
                     const SimulationOptions& options, const Listener& listener = {},
                     const Checkpoint* resume = nullptr);
 
+/// How often `simulate` looks at the static criterion: every so many steps.
+int stride_of(const SimulationOptions& options);
+
+StopCriteria stop_criteria(const SimulationOptions& options);
+
+/// The state that a stepper has come to, polished.
+Simulation conclude(const Stepper& stepper, const Settled& settled, const SimulationOptions& options);
+
 /// The stepper that `simulate` uses. Precondition: options.defect(world) is empty.
 std::unique_ptr<Stepper> make_stepper(const World& world, const std::vector<ContactState>& contacts,
                                       const SimulationOptions& options);

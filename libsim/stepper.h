@@ -25,6 +25,8 @@ class Stepper {
   virtual ~Stepper() = default;
 
   virtual void advance(int steps) = 0;
+  /// Gravity of the steps from here on.
+  virtual void set_gravity(const Vector2& gravity) = 0;
   virtual double dt() const = 0;
   virtual const World& world() const = 0;
   /// The memory of the contacts, in the order of the bodies: with the world all that a new stepper needs to

@@ -62,6 +62,32 @@ SimulationRecord record_of(const sim::Simulation& simulation, const sim::Simulat
   return record;
 }
 
+TiltRecord record_of(const sim::Tilt& tilt, const sim::TiltOptions& options, const sim::World& world) {
+  const sim::Units units = world.units();
+  TiltRecord record;
+  record.texts = {{"ending", tilt.moved >= options.most_moved ? "moved" : "angle limit"}};
+  record.numbers = {{"rate", options.rate},
+                    {"angle_limit", options.angle_limit},
+                    {"most_moved", options.most_moved},
+                    {"distance", options.distance},
+                    {"row_interval", options.row_interval},
+                    {"angle", tilt.angle()},
+                    {"rest_angle", tilt.rest_angle},
+                    {"moved", tilt.moved},
+                    {"start_distance", tilt.start_distance},
+                    {"steps", static_cast<double>(tilt.report.steps)},
+                    {"capped_steps", static_cast<double>(tilt.report.capped_steps)}};
+  for (const sim::TiltRow& row : tilt.rows) {
+    record.angle.push_back(row.angle);
+    record.contacts.push_back(row.contacts);
+    record.sliding.push_back(row.sliding);
+    record.kinetic_energy.push_back(row.kinetic_energy * units.energy());
+    record.displacement.push_back(row.displacement * units.length);
+  }
+  record.moved_at = tilt.moved_at;
+  return record;
+}
+
 TrajectoryFrame frame_of(const sim::Frame& frame, const sim::World& world) {
   TrajectoryFrame result;
   result.time = frame.time * world.units().time;
@@ -149,6 +175,12 @@ std::string to_toml(const sim::SimulationOptions& options) {
   line("calm_steps", options.calm_steps);
   line("time_limit", options.time_limit);
   return text;
+}
+
+std::string to_toml(const sim::TiltOptions& options) {
+  return fmt::format(
+      "[tilt]\nrate = {}\nangle_limit = {}\nmost_moved = {}\ndistance = {}\nrow_interval = {}\n",
+      options.rate, options.angle_limit, options.most_moved, options.distance, options.row_interval);
 }
 
 }  // namespace indet

@@ -4,6 +4,7 @@
 
 #include "libindet/io/simulation_file.h"
 #include "libsim/simulate.h"
+#include "libsim/tilt.h"
 
 namespace indet {
 
@@ -11,6 +12,8 @@ namespace indet {
 
 /// What happened, in units of mg, r_max and √(r_max/g), and the raw contacts.
 SimulationRecord record_of(const sim::Simulation& simulation, const sim::SimulationOptions& options);
+
+TiltRecord record_of(const sim::Tilt& tilt, const sim::TiltOptions& options, const sim::World& world);
 
 TrajectoryFrame frame_of(const sim::Frame& frame, const sim::World& world);
 
@@ -22,5 +25,6 @@ sim::Checkpoint loaded(const StoredCheckpoint& checkpoint, const sim::World& sta
 
 /// Every option that the outcome depends on, as TOML.
 std::string to_toml(const sim::SimulationOptions& options);
+std::string to_toml(const sim::TiltOptions& options);
 
 }  // namespace indet

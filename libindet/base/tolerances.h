@@ -309,6 +309,10 @@ inline constexpr double kNarrowestBin = 1e-12;
 /// Recomputed and stored numbers may differ by this, relative to max(1, |number|).
 inline constexpr double kAgreement = 1e-12;
 
+/// Ranges and sizes of F at several values of a load are known to this, relative to them, where they are held
+/// against each other (AnalyzeOptions::gap is 1e-6 mg). Workable: 1e-6 … 1e-2.
+inline constexpr double kStepAgreement = 1e-5;
+
 /// The same for a sum over many states, for diagnostics of chains (sums over products of sums), for the mean
 /// square of ‖F‖ (relative), and for a p-value (relative to p max(1, −ln p)).
 inline constexpr double kSumAgreement = 1e-9;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libindet/base/tolerances.h"
+#include "libindet/drawing/axis.h"
 #include "libindet/drawing/canvas.h"
 #include "libindet/drawing/legend.h"
 #include "libindet/drawing/palette.h"
@@ -42,15 +42,6 @@ std::vector<Direction> directions_of(const std::vector<Limit>& limits) {
   return directions;
 }
 
-/// 1, 2 or 5 times a power of ten, with about four of them in `reach`.
-double tick_step(double reach) {
-  const double power = std::pow(10.0, std::floor(std::log10(reach / 2)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * power <= reach / 2) return factor * power;
-  }
-  return power;
-}
-
 }  // namespace
 
 void draw_yield_curve(const std::filesystem::path& path, const std::vector<Limit>& limits,
@@ -80,9 +71,9 @@ void draw_yield_curve(const std::filesystem::path& path, const std::vector<Limit
   canvas.line(place({0, lower.y()}), place({0, upper.y()}), 0.5, palette::kUnknown, false, false);
   const double step = tick_step(size / 2);
   const auto ticks = [&](double from, double to, const auto& draw) {
-    for (double k = std::ceil(from / step); k * step <= to; ++k) {
-      if (k != 0) draw(k * step, fmt::format("{:g}", k * step));
-    }
+    for_each_tick(from, to, step, [&](double value) {
+      if (value != 0) draw(value, fmt::format("{:g}", value));
+    });
   };
   ticks(lower.x(), upper.x(), [&](double x, const std::string& label) {
     const Vector2 at = place({x, 0});

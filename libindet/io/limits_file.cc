@@ -66,6 +66,38 @@ void write_change(Hdf5File& file, const std::string& group, const Packing& packi
              {"force/length", "of the change: stress xx, yy, xy, pressure"});
 }
 
+std::string steps_of(const std::string& group) { return group + "/steps"; }
+
+/// A table of each end; `none` where there is no way to it.
+template <class Number, class Get>
+std::vector<Number> step_table(const Limit& limit, std::size_t count, Number none, Get get) {
+  std::vector<Number> values;
+  for (const LimitEnd* end : {&limit.smallest, &limit.largest}) {
+    for (const LimitStep& step : end->steps) values.push_back(get(step));
+    values.resize(values.size() + count - end->steps.size(), none);
+  }
+  return values;
+}
+
+void write_steps(Hdf5File& file, const std::string& group, const Limit& limit) {
+  const std::size_t count = std::max(limit.smallest.steps.size(), limit.largest.steps.size());
+  if (count == 0) return;
+  const Shape shape = {kEnds, count};
+  file.make_group(group);
+  const auto write = [&](const StepField<double>& field) {
+    const auto values = step_table(limit, count, kNaN, [&](const LimitStep& s) { return s.*field.member; });
+    file.write(group + "/" + field.name, std::span<const double>(values), shape, {field.unit, field.meaning});
+  };
+  write({"value", limit.kind == LimitKind::kTilt ? "rad" : "1", "on the way to each end", &LimitStep::value});
+  for (const StepField<double>& field : kStepNumbers) write(field);
+  for (const StepField<int>& field : kStepCounts) {
+    const auto values =
+        step_table<std::int32_t>(limit, count, -1, [&](const LimitStep& s) { return s.*field.member; });
+    file.write(group + "/" + field.name, std::span<const std::int32_t>(values), shape,
+               {field.unit, field.meaning});
+  }
+}
+
 void write_limit(Hdf5File& file, const std::string& group, const Packing& packing, const Limit& limit) {
   const std::string unit = limit.kind == LimitKind::kTilt ? "rad" : "1";
   file.make_group(group);
@@ -130,6 +162,7 @@ void write_limit(Hdf5File& file, const std::string& group, const Packing& packin
                {"1", "1: the coefficient of friction of this contact is multiplied by the value"});
   }
   if (!std::isnan(limit.map_angle)) file.set_attribute(group, "map_angle", limit.map_angle);
+  write_steps(file, steps_of(group), limit);
   if (limit.kind == LimitKind::kLoad) write_change(file, group + "/change", packing, limit.change);
 }
 
@@ -182,6 +215,7 @@ class LimitReader {
     if (file_.has_attribute(group_, "map_angle"))
       limit.map_angle = file_.double_attribute(group_, "map_angle");
     if (limit.kind == LimitKind::kLoad) read_change(limit.change);
+    if (file_.has(steps_of(group_))) read_steps(limit);
     return limit;
   }
 
@@ -211,6 +245,43 @@ class LimitReader {
     table.resize(static_cast<Eigen::Index>(shape[0]),
                  shape.size() == 2 ? static_cast<Eigen::Index>(shape[1]) : 1);
     std::copy(first, last, table.data());
+  }
+
+  void read_steps(Limit& limit) const {
+    const std::string group = steps_of(group_);
+    const Shape shape = file_.shape(group + "/value", 2);
+    if (shape[0] != kEnds) fail("/steps/value", "has not a row for each end");
+    const auto read = [&](auto values, auto member) {
+      for (std::size_t k = 0; k < shape[1]; ++k) {
+        limit.smallest.steps[k].*member = values[k];
+        limit.largest.steps[k].*member = values[shape[1] + k];
+      }
+    };
+    const std::vector<double> values = file_.read_doubles(group + "/value", shape);
+    limit.smallest.steps.resize(shape[1]);
+    limit.largest.steps.resize(shape[1]);
+    read(values, &LimitStep::value);
+    for (const StepField<double>& field : kStepNumbers)
+      read(file_.read_doubles(group + "/" + field.name, shape), field.member);
+    for (const StepField<int>& field : kStepCounts)
+      read(file_.read_integers(group + "/" + field.name, shape), field.member);
+    for (LimitEnd* end : {&limit.smallest, &limit.largest}) {
+      const auto is_blank = [](const LimitStep& step) { return std::isnan(step.value); };
+      const auto blank = std::count_if(end->steps.begin(), end->steps.end(), is_blank);
+      if (blank == 0) continue;
+      if (blank != std::ssize(end->steps)) fail("/steps/value", "is NaN in part");
+      for (const LimitStep& step : end->steps) require_blank(step);
+      end->steps.clear();
+    }
+  }
+
+  /// Of an end that there is no way to.
+  void require_blank(const LimitStep& step) const {
+    const auto require = [&](const char* name, bool holds) {
+      if (!holds) fail(fmt::format("/steps/{}", name), "tells of an end that there is no way to");
+    };
+    for (const StepField<double>& field : kStepNumbers) require(field.name, std::isnan(step.*field.member));
+    for (const StepField<int>& field : kStepCounts) require(field.name, step.*field.member == -1);
   }
 
   void read_change(Loads& change) const {

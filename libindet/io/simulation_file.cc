@@ -97,6 +97,21 @@ std::vector<Contact> read_contact_columns(const Hdf5File& file, const std::strin
   return contacts;
 }
 
+void write_tilt_part(Hdf5File& file, const TiltRecord& tilt) {
+  const std::string group = "/tilt";
+  const std::size_t rows = tilt.angle.size();
+  file.make_group(group);
+  for (const auto& [name, value] : tilt.numbers) file.set_attribute(group, name, value);
+  for (const auto& [name, value] : tilt.texts) file.set_attribute(group, name, value);
+  file.write(group + "/angle", tilt.angle, {rows}, {"rad", "by which gravity is turned, counter-clockwise"});
+  file.write(group + "/contacts", tilt.contacts, {rows}, {"1", "contacts that transmit force"});
+  file.write(group + "/sliding", tilt.sliding, {rows}, {"1", "of these, contacts at the Coulomb limit"});
+  file.write(group + "/kinetic_energy", tilt.kinetic_energy, {rows}, {"energy", "kinetic energy per disk"});
+  file.write(group + "/displacement", tilt.displacement, {rows}, {"length", "largest of all disks"});
+  file.write(group + "/moved_at", tilt.moved_at, {tilt.moved_at.size()},
+             {"rad", "angle at which the disk first had moved, NaN: never"});
+}
+
 void write_trajectory_part(Hdf5File& file, const Trajectory& trajectory) {
   const std::string group = "/trajectory";
   const std::size_t frames = trajectory.size();
@@ -171,6 +186,7 @@ void write_simulation(const std::filesystem::path& path, const Packing& packing,
   write_header(file, schema_of(packing));
   write_packing_part(file, packing);
   write_simulation_part(file, record);
+  if (record.tilt) write_tilt_part(file, *record.tilt);
   if (!trajectory.empty()) write_trajectory_part(file, trajectory);
   write_provenance_part(file, provenance);
   seal(file);

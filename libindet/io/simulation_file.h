@@ -13,13 +13,24 @@
 namespace indet {
 
 /// What a simulation adds to the file of the packing that it made, as plain values: /simulation holds what
-/// happened and the raw contacts, /trajectory the states on the way.
+/// happened and the raw contacts, /tilt how gravity was turned, /trajectory the states on the way.
+
+/// /tilt: numbers and texts become attributes, the rest datasets, in the scene's own units.
+struct TiltRecord {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> texts;
+  // A row a state on the way.
+  std::vector<double> angle, kinetic_energy, displacement;
+  std::vector<std::int32_t> contacts, sliding;
+  std::vector<double> moved_at;  ///< Of each disk.
+};
 
 /// /simulation: numbers and texts become attributes, the contacts datasets as in /contacts.
 struct SimulationRecord {
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;
   std::vector<Contact> raw_contacts;  ///< Of the last step, before the polish.
+  std::optional<TiltRecord> tilt;
 };
 
 /// One state on the way.

@@ -137,11 +137,11 @@ Packing under_mechanism(const Packing& packing, const Limit& limit, const LimitE
   return is_known ? with_friction(packing, limit.scaled, end.lower) : packing;
 }
 
-Packing at_end(const Packing& packing, const Limit& limit, const LimitEnd& end) {
-  if (limit.kind == LimitKind::kFriction) return with_friction(packing, limit.scaled, end.value);
+Packing packing_at(const Packing& packing, const Limit& limit, double value) {
+  if (limit.kind == LimitKind::kFriction) return with_friction(packing, limit.scaled, value);
   Packing tilted = without(packing, limit.left_out);
-  if (limit.kind == LimitKind::kLoad) return under(limit.change, end.value, std::move(tilted));
-  tilted.gravity = turned_gravity(packing, end.value);
+  if (limit.kind == LimitKind::kLoad) return under(limit.change, value, std::move(tilted));
+  tilted.gravity = turned_gravity(packing, value);
   return tilted;
 }
 

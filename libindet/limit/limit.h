@@ -38,6 +38,10 @@ struct Limit {
 
   /// The angle, multiple or factor of the packing as it is.
   double present() const { return kind == LimitKind::kFriction ? 1 : 0; }
+  /// There is a way from the packing as it is to this end: it stands, and the end is reached elsewhere.
+  bool has_way_to(const LimitEnd& end) const {
+    return stands() && end.outcome == LimitOutcome::kReached && end.value != present();
+  }
   /// It is proven to stand as it is; it is proven not to.
   bool stands() const { return smallest.upper <= present() && largest.lower >= present(); }
   bool falls() const {
@@ -68,8 +72,8 @@ Packing under_mechanism(const Packing& packing, const Limit& limit, const LimitE
 Limit find_friction(const Packing& packing, std::string name, std::vector<bool> scaled,
                     const LimitOptions& options = {});
 
-/// The packing, without what was left out, under the load, or with the friction, of one of its ends.
-/// Precondition: that is reached.
-Packing at_end(const Packing& packing, const Limit& limit, const LimitEnd& end);
+/// The packing, without what was left out, tilted by the angle `value`, under that multiple of the load, or
+/// with that factor of friction.
+Packing packing_at(const Packing& packing, const Limit& limit, double value);
 
 }  // namespace indet

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "libindet/exact/body_motion.h"
+#include "libindet/limit/limit_step.h"
 #include "libindet/packing/force.h"
 #include "libindet/packing/loads.h"
 
@@ -41,6 +43,7 @@ struct LimitEnd {
   int non_transmitting = -1;  ///< contacts without force there
   int dim = -1;               ///< of the face of F that is left at the limit: 0 is one state; −1: not known
   bool has_one_mechanism = false;  ///< no other motion (but for its size)
+  std::vector<LimitStep> steps;    ///< on the way there; empty where nobody went it (sampling/limit_walk.h)
 };
 
 struct LoadLimits {

@@ -19,6 +19,7 @@
 #include "libindet/limit/tilt.h"
 #include "libindet/verify/comparisons.h"
 #include "libindet/verify/rebuilt_problem.h"
+#include "libindet/verify/steps_check.h"
 
 namespace indet {
 namespace {
@@ -90,7 +91,7 @@ class EndCheck {
                      "{}: its bounds {} and {} are too far apart", name_, end_.lower, end_.upper);
     if (!compare_.require(end_.forces.value().size() == 2 * packing_.contact_count(), "{}: no forces", name_))
       return false;
-    const Packing there = at_end(packing_, limit_, end_);
+    const Packing there = packing_at(packing_, limit_, end_.value);
     const RebuiltProblem problem(there);
     const Eigen::VectorXd forces = forces_of(problem.force_unit());
     const double largest = std::max(problem.internal_unit(), forces.lpNorm<Eigen::Infinity>());
@@ -197,9 +198,7 @@ class EndCheck {
     if (end_.value == 0 && limit_.is_attained)  // no friction is needed
       return compare_.require(end_.motion.disks.rows() == 0,
                               "{}: no friction is needed, yet there is a motion", name_);
-    LimitEnd below = end_;
-    below.value = end_.lower;
-    const Packing there = at_end(packing_, limit_, below);
+    const Packing there = packing_at(packing_, limit_, end_.lower);
     if (!check_no_resistance(there)) return false;
     const RebuiltProblem::Sum load = power(there);
     return compare_.require(load.value > 0, "{}: the load does no work along the motion ({})", name_,
@@ -284,18 +283,16 @@ class EndCheck {
           fmt::format("{}: by exact arithmetic (it stands at one value alone)", limit_.name));
     // The load there is rounded in each of its numbers.
     const double step = 16 * kRoundoff * rounded_size();
-    LimitEnd inside = end_;
-    inside.value = (sign_ > 0 ? end_.lower : end_.upper) - sign_ * step;
-    LimitEnd outside = end_;
-    outside.value = (sign_ > 0 ? end_.upper : end_.lower) + sign_ * step;
-    compare_.require(stands(at_end(packing_, limit_, inside)), "{}: exact arithmetic finds no state at {}",
-                     name_, inside.value);
+    const double inside = (sign_ > 0 ? end_.lower : end_.upper) - sign_ * step;
+    const double outside = (sign_ > 0 ? end_.upper : end_.lower) + sign_ * step;
+    compare_.require(stands(packing_at(packing_, limit_, inside)),
+                     "{}: exact arithmetic finds no state at {}", name_, inside);
     if (limit_.kind == LimitKind::kFriction && end_.upper == 0) return;
-    const Packing beyond = at_end(packing_, limit_, outside);
+    const Packing beyond = packing_at(packing_, limit_, outside);
     const exact::ContactProblem problem(beyond);
     compare_.require(
         exact::proves_emptiness(problem, exact::on_rows(beyond, problem, end_.motion), tolerance::kExactZero),
-        "{}: exact arithmetic does not prove that it falls at {}", name_, outside.value);
+        "{}: exact arithmetic does not prove that it falls at {}", name_, outside);
   }
 
   /// A change of the value by a rounding of this is one of the load by a rounding of its largest part.
@@ -350,12 +347,20 @@ void check_angles(const Limit& limit, Comparisons& compare) {
     compare.leave_unchecked(fmt::format("that it stands at all angles from end to end ({})", limit.name));
 }
 
+/// Of steps all but the values where they are.
+std::string describe_steps() {
+  std::string names;
+  for (const StepField<int>& field : kStepCounts) names += std::string(field.name) + ", ";
+  for (const StepField<double>& field : kStepNumbers) names += std::string(field.name) + ", ";
+  return names + "of steps on the way to limits (held against each other alone)";
+}
+
 }  // namespace
 
 Verification verify_limits(const Packing& packing, const std::vector<Limit>& limits, bool exact) {
   Comparisons compare("/limits");
-  for (std::size_t k = 0; k < limits.size(); ++k) {
-    const Limit& limit = limits[k];
+  bool has_steps = false;
+  for (const Limit& limit : limits) {
     compare.require((limit.smallest.outcome == LimitOutcome::kNoState) ==
                         (limit.largest.outcome == LimitOutcome::kNoState),
                     "{}: one end says that there is no state, the other one does not", limit.name);
@@ -369,12 +374,19 @@ Verification verify_limits(const Packing& packing, const std::vector<Limit>& lim
       continue;
     compare.require(limit.is_first_of_several == !turns, "{}: first_of_several is {}", limit.name,
                     limit.is_first_of_several);
-    for (const bool is_largest : {false, true}) EndCheck(packing, limit, is_largest, compare).check(exact);
+    for (const bool is_largest : {false, true}) {
+      EndCheck(packing, limit, is_largest, compare).check(exact);
+      const LimitEnd& end = is_largest ? limit.largest : limit.smallest;
+      has_steps = has_steps || !end.steps.empty();
+      check_steps(packing, limit, end, fmt::format("{} {}", limit.name, is_largest ? "largest" : "smallest"),
+                  turns && limit.kind == LimitKind::kTilt, compare);
+    }
   }
   std::string unchecked =
       "dim and one_mechanism of limits, attained of limits of friction, map_angle of loads";
   if (!exact) unchecked += ", and the last digits of bounds (--exact proves these)";
   compare.leave_unchecked(std::move(unchecked));
+  if (has_steps) compare.leave_unchecked(describe_steps());
   return compare.result();
 }
 

@@ -6,6 +6,7 @@ Argument: the indet executable.
 import json
 import math
 import pathlib
+import re
 import sys
 
 import h5py
@@ -160,6 +161,68 @@ class Limits(program.ProgramTest):
         self.assertIn("indet limit p.h5", done.stderr)
         done = self.run_indet("export", "p.limits.h5", "--style", "mechanism", "--limit", "3:largest", status=3)
         self.assertIn("there is no limit 3; the file has 1 limit", done.stderr)
+        done = self.run_indet("export", "p.limits.h5", "--style", "steps", status=3)
+        self.assertIn("there are no steps to disk=2,1,0 of ", done.stderr)
+
+    def test_a_picture_of_steps(self):
+        self.run_indet("limit", self.packing(program.groove(0.4)), "--tilt", "--steps", "4", "--quiet")
+        self.run_indet("export", "p.limits.h5", "--style", "steps", "--limit", "smallest", "-o", "s.svg")
+        picture = (self.folder / "s.svg").read_text()
+        for colour in ("10%,10%,10%", "0%,44.7%,69.8%", "0%,50%,35%", "83.5%,36.9%,0%"):
+            self.assertEqual(len(re.findall(f"fill:none[^>]*stroke:rgb\\({colour}", picture)), 4 + 1)  # one of the legend
+
+    def test_steps(self):
+        packing = self.packing(program.groove(0.4))
+        tilt, load, friction = self.limits(packing, "--tilt", "--load", "gravity=0,0.5", "--friction", "--steps", "4")
+        # A segment whose length is as sin(0.4 − θ), as 1 − λ/2, and about as the factor.
+        for end in (tilt["at_smallest"], tilt["at_largest"], load["at_largest"], friction["at_smallest"]):
+            self.assertEqual(len(end["steps"]), 5)
+            self.assertEqual({step["dim"] for step in end["steps"]}, {1})
+            self.assertEqual(end["dim"] if end is not friction["at_smallest"] else 0, 0)
+        steps = tilt["at_largest"]["steps"]
+        for k, step in enumerate(steps[:4]):
+            self.assertAlmostEqual(step["value"], 0.1 * k, delta=1e-15)
+            share = math.sin(0.4 - 0.1 * k) / math.sin(0.4)
+            for name in ("mean_delta_R", "largest_delta_T", "mean_width", "inscribed_radius"):
+                self.assertAlmostEqual(step[name], share * steps[0][name], delta=1e-9)
+        self.assertNotIn("steps", load["at_smallest"])
+        with h5py.File(self.folder / "p.limits.h5") as file:
+            group = file["limits/1/steps"]
+            self.assertTrue(np.isnan(group["value"][0]).all())
+            self.assertTrue((group["dim"][0] == -1).all())
+            np.testing.assert_array_equal(group["mean_delta_R"][1], [s["mean_delta_R"] for s in load["at_largest"]["steps"]])
+            for name in group:
+                self.assertEqual(group[name].shape, (2, 5))
+        text = self.run_indet("inspect", "p.limits.h5").stdout
+        self.assertEqual(text.count("on the way there"), 4)
+        self.assertEqual(text.count("just before"), 4)
+        shown = json.loads(self.run_indet("inspect", "--json", "p.limits.h5").stdout)
+        self.assertEqual(shown["limits"][0]["at_largest"]["steps"], steps)
+        self.assertIn(" 0 contradictions", self.run_indet("verify", "--exact", "p.limits.h5").stdout)
+
+    def test_steps_to_nowhere(self):
+        done = self.run_indet("limit", self.packing(program.groove(1.4)), "--tilt", "--steps", "2")
+        self.assertIn("warning: --steps: no way to go", done.stderr)
+        done = self.run_indet("limit", self.packing(program.incline(), name="i"), "--tilt", "--steps", "2", status=4)
+        self.assertIn("warning: --steps: no way to go", done.stderr)
+
+    def test_forged_steps(self):
+        """What cannot be a section of one convex set, and steps of an end that there is no way to."""
+        self.run_indet("limit", self.packing(program.groove(0.4)), "--load", "gravity=0,0.5", "--steps", "4")
+        for field, place, number, status, text in (
+                ("mean_delta_R", (1, 2), 0.1, 5, "those beside it tell that it is at least"),
+                ("inscribed_radius", (1, 2), 0.1, 5, "those beside it tell that it is at least"),
+                ("inscribed_radius", (1, 1), 0.9, 5, "inscribed_radius[1] cannot be"),
+                ("value", (1, 2), 0.9, 5, "steps/value[2]"),
+                ("dim", (1, 2), -1, 5, "mean_delta_R[2] cannot be"),
+                ("dim", (0, 2), 1, 3, "/limits/0/steps/dim: tells of an end that there is no way to"),
+                ("value", (1, 0), math.nan, 3, "/limits/0/steps/value: is NaN in part")):
+            (self.folder / "bad.h5").write_bytes((self.folder / "p.limits.h5").read_bytes())
+            with h5py.File(self.folder / "bad.h5", "r+") as file:
+                data = file[f"limits/0/steps/{field}"]
+                data[place] = number
+            done = self.run_indet("verify", "bad.h5", status=status)
+            self.assertIn(text, done.stdout + done.stderr)
 
     def test_messages(self):
         packing = self.packing(program.pyramid(0.5))
@@ -167,6 +230,10 @@ class Limits(program.ProgramTest):
                 (2, [], "--tilt, --load or --friction"),
                 (2, ["--ignore-below", "3"], "--tilt"),
                 (2, ["--tilt", "--friction-of", "walls"], "without --friction"),
+                (2, ["--tilt", "--steps", "0"], "from 1 to 1000"),
+                (2, ["--tilt", "--steps", "1.5"], "from 1 to 1000"),
+                (2, ["--steps", "3"], "--tilt, --load or --friction"),
+                (2, ["--load", "disk=1,1,0", "--load", "disk=1,0,1", "--map", "8", "--steps", "3"], "not to those of a --map"),
                 (2, ["--load", "disk=1,2"], "expected disk=ID"),
                 (2, ["--load", "disk=1,x,0"], '"x" is not a finite number'),
                 (2, ["--load", "disk=1,nan,0"], "not a finite number"),

@@ -17,10 +17,11 @@ class Quiet(program.ProgramTest):
     # Every subcommand but completion, whose script is asked for; each runs on what those before it left.
     COMMANDS = [
         ["simulate", "--protocol", "cd2", "--disks", "6", "--every", "1", "-o", "s.h5"],
+        ["simulate", "--protocol", "cd2", "--from", "s.h5", "--tilt-rate", "1", "--tilt-limit", "0.5", "-o", "t.h5"],
         ["import", "--format", "csv", "p", "-o", "p.h5"],
         ["analyze", "p.h5"],
         ["analyze", "p.h5", "--method", "pivoting-paper", "--contacts", "sample:2", "-o", "r.h5"],
-        ["limit", "p.h5", "--tilt"],
+        ["limit", "p.h5", "--tilt", "--steps", "1"],
         ["compare", "p.h5"],
         ["inspect", "p.ranges.h5"],
         ["inspect", "s.h5"],

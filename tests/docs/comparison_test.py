@@ -20,6 +20,8 @@ class Lines(unittest.TestCase):
                                ("radius r = 11.23 ± 0.16 mg", "radius r = 11.05 ± 0.14 mg"),
                                ("converged after 512 sweeps, fewest of T of contact 11",
                                 "converged after 640 sweeps, fewest of R of contact 3"),
+                               ("  1.2° 16 7.519 34.92 2.158 12.8 15.1 0.02821 27 0",
+                                "  1.2° 16 7.519 34.92 2.158 12.8 15.3 0.02821 26.2 0"),
                                ("contents " + "0" * 64, "contents " + "f" * 64), ("max inf", "max inf")]:
             self.assertTrue(same_line(shown, printed), f"{shown} / {printed}")
         self.assertTrue(same_text(["a", "…", "d"], ["a", "b", "c", "d"]))
@@ -41,6 +43,10 @@ class Lines(unittest.TestCase):
                 ("radius r = 11.23 ± 0.16 mg", "radius r = 23.05 ± 0.14 mg"), ("radius r = 11.23", "radius r = -11.23"),
                 ("converged after 512 sweeps", "NOT converged after 512 sweeps"),
                 ("radius r = 11.23 mg", "norm ‖F‖: 11.23 mg"), ("radius q = 11.23 mg", "radius q = 11.05 mg"),
+                ("just before 16 7.519 34.92 2.158 12.8 15.1 0.02821 27 0",
+                 "just before 16 7.529 34.92 2.158 12.8 15.1 0.02821 27 0"),
+                ("  just before 16 7.519 34.92 2.158 12.8 15.1 0.02821 27 0",
+                 "  just before 16 7.519 34.92 2.158 12.8 15.1 0.02931 27 0"),
                 ("0.0000002", "0.0000009"), ("step 10 s.d. 3", "step 10 s.d. 4"), ("seed 10", "seed 11")]:
             self.assertFalse(same_line(shown, printed), f"{shown} / {printed}")
         self.assertFalse(same_text(["a", "…", "d"], ["a", "b", "c"]))

@@ -27,8 +27,8 @@ BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 FILE_NAME = re.compile(r"(?:#|//) ([\w./-]+\.\w+)(?=:|$)", re.MULTILINE)
 # The pictures in docs/images, and the file that each of them is after the commands of the document that shows it
 # (None: experiment_test.py or a program of bench/ makes it, which takes minutes).
-PICTURES = {"delta-R.svg": "delta-R.svg", "mechanism.svg": "mechanism.svg", "yield-curve.svg": "yield-curve.svg", "small-ensemble.svg": "experiment/figures/fig07.svg",
-            "local-indeterminacy.svg": None, "sliding-contacts-of-cd2.svg": None}
+PICTURES = {"delta-R.svg": "delta-R.svg", "mechanism.svg": "mechanism.svg", "yield-curve.svg": "yield-curve.svg", "steps.svg": "steps.svg", "small-ensemble.svg": "experiment/figures/fig07.svg",
+            "ensemble-tilt.svg": None, "local-indeterminacy.svg": None, "tilting.svg": None, "sliding-contacts-of-cd2.svg": None}
 
 
 def steps_of(text):

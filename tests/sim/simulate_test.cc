@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ostream>
 
 #include "libindet/base/error.h"
 #include "tests/sim/worlds.h"
@@ -13,29 +12,6 @@ namespace indet::sim {
 namespace {
 
 using ::testing::HasSubstr;
-
-enum class Kind { kContactDynamics, kStiff, kPaper };
-
-const char* name_of(Kind kind) {
-  switch (kind) {
-    case Kind::kContactDynamics:
-      return "ContactDynamics";
-    case Kind::kStiff:
-      return "StiffSprings";
-    case Kind::kPaper:
-      return "PaperSprings";
-  }
-  return "";
-}
-
-void PrintTo(Kind kind, std::ostream* stream) { *stream << name_of(kind); }
-
-SimulationOptions options_of(Kind kind, double time_limit) {
-  if (kind == Kind::kContactDynamics) return contact_dynamics(time_limit);
-  return molecular_dynamics(
-      kind == Kind::kStiff ? options_of(MolecularPreset::kStiff) : options_of(MolecularPreset::kPaperOverlap),
-      time_limit);
-}
 
 /// Mechanics of a few disks: the answers are the same for all methods, up to their time step and stiffness.
 class Mechanics : public ::testing::TestWithParam<Kind> {};

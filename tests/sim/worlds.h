@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <ostream>
 
 #include "libsim/molecular_preset.h"
 #include "libsim/scene.h"
@@ -61,6 +62,30 @@ inline SimulationOptions molecular_dynamics(const MolecularDynamicsOptions& pres
   options.molecular_dynamics = preset;
   options.time_limit = time_limit;
   return options;
+}
+
+/// The methods that tests of both simulators run.
+enum class Kind { kContactDynamics, kStiff, kPaper };
+
+inline const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::kContactDynamics:
+      return "ContactDynamics";
+    case Kind::kStiff:
+      return "StiffSprings";
+    case Kind::kPaper:
+      return "PaperSprings";
+  }
+  return "";
+}
+
+inline void PrintTo(Kind kind, std::ostream* stream) { *stream << name_of(kind); }
+
+inline SimulationOptions options_of(Kind kind, double time_limit) {
+  if (kind == Kind::kContactDynamics) return contact_dynamics(time_limit);
+  return molecular_dynamics(
+      kind == Kind::kStiff ? options_of(MolecularPreset::kStiff) : options_of(MolecularPreset::kPaperOverlap),
+      time_limit);
 }
 
 /// Runs a world for `time` (units of time), whether it comes to rest or not.
