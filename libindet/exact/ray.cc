@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libindet/base/sparse_lu.h"
+#include "libindet/base/tolerances.h"
 #include "libindet/exact/basis_solver.h"
 
 namespace indet::exact {
@@ -143,14 +144,21 @@ RaysOnEdges::~RaysOnEdges() = default;
 bool RaysOnEdges::contain_one_near(std::span<const double> guess) const {
   const Impl& its = *impl_;
   if (!its.solver) return false;
-  std::vector<mpq_class> x;
-  for (const int e : its.edges) x.emplace_back(guess[static_cast<std::size_t>(e)]);
+  std::vector<mpq_class> x, low, high;
+  double largest = 0;
+  for (const int e : its.edges) largest = std::max(largest, guess[static_cast<std::size_t>(e)]);
+  const mpq_class near(tolerance::kRayEntry * largest);
+  for (const int e : its.edges) {
+    x.emplace_back(guess[static_cast<std::size_t>(e)]);
+    low.push_back(std::max(mpq_class(0), mpq_class(x.back() - near)));
+    high.push_back(x.back() + near);
+  }
   its.least_move->move(x);
   // What the free ones leave to the others, of all rows.
   std::vector<mpq_class> right(its.row_number.size());
   for (std::size_t j = 0; j < its.columns.size(); ++j) {
     if (its.number[j] >= 0) continue;
-    if (x[j] <= 0) return false;
+    if (x[j] <= low[j] || x[j] >= high[j]) return false;
     const IntegerColumn& column = *its.columns[j];
     const mpq_class strength = scaled(x[j], -column.shift);
     for (std::size_t k = 0; k < column.row.size(); ++k)
@@ -165,7 +173,10 @@ bool RaysOnEdges::contain_one_near(std::span<const double> guess) const {
   }
   const Solution others = its.solver->solve(std::move(on_rows));
   for (std::size_t c = 0; c < its.basic.size(); ++c) {
-    if (others.sign({{static_cast<int>(c)}, {1}, 0}) <= 0) return false;
+    const IntegerColumn itself{{static_cast<int>(c)}, {1}, 0};
+    const auto j = static_cast<std::size_t>(its.basic[c]);
+    if (others.compare(itself, low[j] * denominator) <= 0) return false;
+    if (others.compare(itself, high[j] * denominator) >= 0) return false;
   }
   for (std::size_t i = 0; i < right.size(); ++i) {
     if (its.row_number[i] >= 0) continue;

@@ -21,8 +21,8 @@ class RaysOnEdges {
   RaysOnEdges(const ContactProblem& problem, std::vector<int> edges, std::span<const double> preference);
   ~RaysOnEdges();
 
-  /// Whether one is proven to be near the guess (one an edge of the problem): it then grows each component
-  /// whose sign is clear in the guess.
+  /// Whether one is proven to be near the guess (one an edge of the problem), within tolerance::kRayEntry: it
+  /// then grows each component whose sign is clear in the guess.
   bool contain_one_near(std::span<const double> guess) const;
 
  private:

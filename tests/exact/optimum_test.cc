@@ -148,8 +148,10 @@ TEST(Certificate, ProvesTheRayOfAConfinedArray) {
   const ContactProblem problem(packing);
   std::vector<double> strengths(static_cast<std::size_t>(problem.edges()), 0.5);
   EXPECT_TRUE(proves_ray(problem, strengths, 1e-9));
-  for (std::size_t e = 0; e < strengths.size(); ++e) strengths[e] += 1e-7 * std::sin(static_cast<double>(e));
+  for (std::size_t e = 0; e < strengths.size(); ++e) strengths[e] += 1e-10 * std::sin(static_cast<double>(e));
   EXPECT_TRUE(proves_ray(problem, strengths, 1e-9)) << "one is near";
+  strengths[0] += 1e-3;
+  EXPECT_FALSE(proves_ray(problem, strengths, 1e-9)) << "none is near";
   strengths[0] = strengths[1] = 0;
   EXPECT_FALSE(proves_ray(problem, strengths, 1e-9)) << "the first row leans on nothing";
 }
