@@ -98,7 +98,8 @@ class Encloser {
   }
   double from_above(const BasisSystem& system, const DoubledFunctional& g, bool is_level,
                     const BasisSystem::Solution& y) const {
-    if (is_level) return dual_bound(y, unlimited_.shift(y.residual));
+    const double bound = is_level ? dual_bound(y, unlimited_.shift(y.residual)) : kInfinity;
+    if (std::isfinite(bound)) return bound;
     const auto tilted = tilted_multipliers(equations_, system, g, y.value, bounds_.strength());
     return tilted ? dual_bound(*tilted, 0) : kInfinity;
   }
