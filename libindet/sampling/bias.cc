@@ -21,10 +21,8 @@ struct Quantity {
   double effective = 0;
 
   CorrelatedSample sample() const { return {span_of(values), effective}; }
-  double variance_of_mean() const {
-    const double variance = variance_of(values);
-    return variance > 0 ? variance / effective : 0;
-  }
+  /// Values that are all the same have no effective size, and a mean that may be rounded away from them.
+  double variance_of_mean() const { return std::isnan(effective) ? 0 : variance_of(values) / effective; }
 };
 
 class Comparison {

@@ -77,6 +77,19 @@ TEST(Bias, OfAChainInTheUpperHalfOfOneCoordinate) {
   EXPECT_EQ(bias.control_means, 0);
 }
 
+/// A force that is the same in all states has no noise, though its mean is rounded.
+TEST(Bias, ForcesThatDoNotVaryHaveNoNoise) {
+  const ConvexBody body = cube(1);
+  const UniformSample sample = draw_with_seed(body, 0);
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Constant(2, 601, 0.5);
+  const double noise = compare_with_uniform(body, sample, WeightStates(chain), nullptr).center_noise;
+  EXPECT_GT(noise, 0);  // that of the uniform sample
+  for (int k = 1; k < 100; ++k) {
+    chain.row(0).setConstant(0.01 * k);
+    EXPECT_EQ(compare_with_uniform(body, sample, WeightStates(chain), nullptr).center_noise, noise) << k;
+  }
+}
+
 /// A chain that hardly moves is not worth a test, and says so by its effective size.
 TEST(Bias, OfAChainThatCreepsIsNotTested) {
   const ConvexBody body = cube(2);
