@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -76,6 +77,10 @@ class BasisSolver {
   /// outlive the solver, and the solver its solutions.
   static std::unique_ptr<BasisSolver> create(std::vector<const IntegerColumn*> columns);
 
+  /// A bound of ‖B⁻ᵀ‖∞; infinite if double precision does not prove that B is regular.
+  double transposed_inverse_norm() const {
+    return refined_ ? refined_->transposed_inverse_norm() : std::numeric_limits<double>::infinity();
+  }
   Solution solve(std::vector<mpz_class> b) const { return {*this, std::move(b), false}; }
   Solution solve_transposed(std::vector<mpz_class> c) const { return {*this, std::move(c), true}; }
 

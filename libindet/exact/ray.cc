@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "libindet/base/sparse_lu.h"
 #include "libindet/base/tolerances.h"
-#include "libindet/exact/basis_solver.h"
+#include "libindet/exact/edge_span.h"
 
 namespace indet::exact {
 namespace {
@@ -87,103 +88,56 @@ class LeastMove {
 }  // namespace
 
 struct RaysOnEdges::Impl {
-  std::vector<int> edges;       ///< ascending
-  std::vector<int> basic;       ///< places among them of those that follow from the others
-  std::vector<int> number;      ///< of each edge its number among these, −1: it is free
-  std::vector<int> row_number;  ///< among the independent rows
+  Impl(const ContactProblem& problem, std::vector<int> given, std::span<const double> preference)
+      : edges(std::move(given)), span(problem, edges, preference) {
+    for (const int e : edges) columns.push_back(&problem.edge(e));
+    if (span.has_basis())
+      least_move.emplace(columns, span.row_number(), static_cast<int>(span.basis().size()));
+  }
+
+  std::vector<int> edges;  ///< ascending
+  EdgeSpan span;           ///< what is not in its basis is free
   std::vector<const IntegerColumn*> columns;
-  std::vector<IntegerColumn> square;
-  std::vector<Terms> other_rows;  ///< of each row that follows from the independent ones
-  std::unique_ptr<LeastMove> least_move;
-  std::unique_ptr<BasisSolver> solver;
+  std::optional<LeastMove> least_move;
 };
 
 RaysOnEdges::RaysOnEdges(const ContactProblem& problem, std::vector<int> edges,
                          std::span<const double> preference)
-    : impl_(std::make_unique<Impl>()) {
-  Impl& its = *impl_;
-  its.edges = std::move(edges);
-  std::vector<bool> open(static_cast<std::size_t>(problem.edges()), false);
-  for (const int e : its.edges) {
-    its.columns.push_back(&problem.edge(e));
-    open[static_cast<std::size_t>(e)] = true;
-  }
-  const ContactProblem cone = problem.restricted_to(open);
-  if (cone.rank() == std::ssize(its.edges)) return;
-  its.row_number = cone.row_number();
-  its.number.assign(its.edges.size(), -1);
-  for (const int e : cone.choose_basis(preference)) {
-    const auto place = std::lower_bound(its.edges.begin(), its.edges.end(), e) - its.edges.begin();
-    its.number[static_cast<std::size_t>(place)] = static_cast<int>(its.basic.size());
-    its.basic.push_back(static_cast<int>(place));
-  }
-  if (std::ssize(its.basic) != cone.rank()) return;
-  its.square.resize(its.basic.size());
-  its.other_rows.resize(static_cast<std::size_t>(problem.rows()));
-  for (std::size_t c = 0; c < its.basic.size(); ++c) {
-    const IntegerColumn& column = *its.columns[static_cast<std::size_t>(its.basic[c])];
-    its.square[c].shift = column.shift;
-    for (std::size_t k = 0; k < column.row.size(); ++k) {
-      const auto place = static_cast<std::size_t>(column.row[k]);
-      const int row = its.row_number[place];
-      if (row >= 0) {
-        its.square[c].row.push_back(row);
-        its.square[c].value.push_back(column.value[k]);
-      } else {
-        its.other_rows[place].emplace_back(static_cast<int>(c), scaled(column.value[k], -column.shift));
-      }
-    }
-  }
-  std::vector<const IntegerColumn*> pointers;
-  for (const IntegerColumn& column : its.square) pointers.push_back(&column);
-  its.solver = BasisSolver::create(std::move(pointers));
-  its.least_move = std::make_unique<LeastMove>(its.columns, its.row_number, cone.rank());
-}
+    : impl_(std::make_unique<Impl>(problem, std::move(edges), preference)) {}
 RaysOnEdges::~RaysOnEdges() = default;
 
 bool RaysOnEdges::contain_one_near(std::span<const double> guess) const {
   const Impl& its = *impl_;
-  if (!its.solver) return false;
-  std::vector<mpq_class> x, low, high;
+  const std::vector<int>& basis = its.span.basis();
+  if (!its.span.has_basis() || basis.size() == its.edges.size()) return false;
   double largest = 0;
   for (const int e : its.edges) largest = std::max(largest, guess[static_cast<std::size_t>(e)]);
   const mpq_class near(tolerance::kRayEntry * largest);
+  std::vector<mpq_class> x, low, high;
   for (const int e : its.edges) {
     x.emplace_back(guess[static_cast<std::size_t>(e)]);
     low.push_back(std::max(mpq_class(0), mpq_class(x.back() - near)));
     high.push_back(x.back() + near);
   }
   its.least_move->move(x);
-  // What the free ones leave to the others, of all rows.
-  std::vector<mpq_class> right(its.row_number.size());
-  for (std::size_t j = 0; j < its.columns.size(); ++j) {
-    if (its.number[j] >= 0) continue;
+  // What the free ones leave to the others.
+  std::vector<mpq_class> right(its.span.row_number().size());
+  for (std::size_t j = 0; j < its.edges.size(); ++j) {
+    if (std::binary_search(basis.begin(), basis.end(), its.edges[j])) continue;
     if (x[j] <= low[j] || x[j] >= high[j]) return false;
     const IntegerColumn& column = *its.columns[j];
     const mpq_class strength = scaled(x[j], -column.shift);
     for (std::size_t k = 0; k < column.row.size(); ++k)
       right[static_cast<std::size_t>(column.row[k])] -= column.value[k] * strength;
   }
-  mpz_class denominator = 1;
-  for (const mpq_class& value : right) denominator = lcm(denominator, value.get_den());
-  std::vector<mpz_class> on_rows(its.basic.size());
-  for (std::size_t i = 0; i < right.size(); ++i) {
-    right[i] *= denominator;
-    if (its.row_number[i] >= 0) on_rows[static_cast<std::size_t>(its.row_number[i])] = right[i].get_num();
-  }
-  const Solution others = its.solver->solve(std::move(on_rows));
-  for (std::size_t c = 0; c < its.basic.size(); ++c) {
+  const EdgeSpan::Combination others = its.span.combination(right);
+  for (std::size_t c = 0, j = 0; c < basis.size(); ++c) {
+    while (its.edges[j] != basis[c]) ++j;
     const IntegerColumn itself{{static_cast<int>(c)}, {1}, 0};
-    const auto j = static_cast<std::size_t>(its.basic[c]);
-    if (others.compare(itself, low[j] * denominator) <= 0) return false;
-    if (others.compare(itself, high[j] * denominator) >= 0) return false;
+    if (others.x.compare(itself, low[j] * others.scale) <= 0) return false;
+    if (others.x.compare(itself, high[j] * others.scale) >= 0) return false;
   }
-  for (std::size_t i = 0; i < right.size(); ++i) {
-    if (its.row_number[i] >= 0) continue;
-    const Terms& row = its.other_rows[i];
-    if (row.empty() ? right[i] != 0 : others.compare(integer_terms(row), right[i]) != 0) return false;
-  }
-  return true;
+  return its.span.holds(others, right);
 }
 
 std::vector<int> loaded_edges(const ContactProblem& problem, std::span<const double> guess, double zero) {

@@ -43,6 +43,8 @@ class RefinedSolver {
   /// doubles.
   static constexpr long kBits = 160;
   const BlockForm& blocks() const { return blocks_; }
+  /// A bound of ‖B⁻ᵀ‖∞.
+  double transposed_inverse_norm() const { return transposed_norm_; }
   std::optional<EnclosedVector> solve(const std::vector<mpz_class>& b) const { return refine(b, false); }
   std::optional<EnclosedVector> solve_transposed(const std::vector<mpz_class>& c) const {
     return refine(c, true);

@@ -41,8 +41,6 @@ class DoubledEquations {
         begin, static_cast<std::size_t>(first_[static_cast<std::size_t>(k) + 1]) - begin);
   }
 
-  const Doubled& load(int row) const { return load_[static_cast<std::size_t>(row)]; }
-
   /// b − A x.
   Bounded residual(std::span<const Doubled> x) const;
   /// g − Aᵀ y. What has no term but zeros is exactly 0, with no error.

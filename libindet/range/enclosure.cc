@@ -37,7 +37,7 @@ class Encloser {
         equations_(polytope),
         lightest_(polytope, equations_),
         everywhere_(polytope, equations_, lightest_, {}),
-        unlimited_(polytope, equations_),
+        unlimited_(polytope),
         bounds_(polytope, equations_, lightest_, everywhere_, unlimited_),
         sensitivity_(polytope, extrema.value),
         at_lightest_(point_of(everywhere_)) {}

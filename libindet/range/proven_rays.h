@@ -11,7 +11,8 @@ namespace indet {
 ///
 /// Where normals are rounded, as in regular arrays, an extremal ray of the ideal geometry has no exact one
 /// with its zeros: contacts that it leaves alone need a force of some 1e-16. Such a ray is moved a little
-/// towards the sum of all, which has far fewer zeros, and stays a ray along which the same forces grow. If
+/// towards the sum of all, which has far fewer zeros, and stays a ray along which the same forces grow; after
+/// some, one behind the other, that are not exact as they are, so is every further one. If
 /// one is still not proven, forces that grow along it may be limited after all, and other values belong to
 /// vertices far away.
 bool prove_rays(const Packing& packing, const exact::ContactProblem& exact, Rows<double>& rays);

@@ -9,7 +9,6 @@
 #include "libindet/lp/vertex.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/interior.h"
-#include "libindet/polytope/unbounded_polytope.h"
 
 namespace indet {
 namespace {
@@ -52,7 +51,7 @@ SolutionBounds::SolutionBounds(const ForcePolytope& polytope, const DoubledEquat
   margin_ = interior_ - kWiden * interior_shift_ * reach_;
   has_interior_ = std::isfinite(interior_shift_) && (margin_.array() > 0).all();
   bound_strengths(everywhere);
-  if (unlimited.any() && !polytope.unbounded) bound_limited_strengths(lightest, unlimited);
+  if (unlimited.any()) bound_limited_strengths(lightest, unlimited);
 }
 
 void SolutionBounds::take_centre() {
@@ -116,11 +115,6 @@ Eigen::VectorXd SolutionBounds::inexact_entries(const Eigen::VectorXd& weight) c
 
 void SolutionBounds::bound_strengths(const BasisSystem& everywhere) {
   strength_.setConstant(problem_.unknowns(), kInfinity);
-  if (polytope_.unbounded) {
-    const std::vector<double>& X = polytope_.unbounded->within->equations->strength_bounds();
-    strength_ = kWiden * Eigen::Map<const Eigen::VectorXd>(X.data(), problem_.unknowns());
-    return;
-  }
   if (polytope_.bounding_multipliers.size() == 0 || problem_.unknowns() == 0) return;
   DoubledFunctional sum, with_multipliers;
   for (int k = 0; k < problem_.unknowns(); ++k) {

@@ -20,8 +20,8 @@ namespace indet {
 /// *A point inside.* Near `interior` is a solution with x_k ≥ margin_k > 0.
 ///
 /// *Strengths are limited*, x_k ≤ strength_k over F, by the centre, or because Σ x is: with y of the proof
-/// that F is bounded, (1 − max (1 − Aᵀ y)_k) Σ x ≤ y · b. Of an unbounded F those are that no ray loads: by
-/// ForcePolytope::unbounded, or likewise, with y of the largest sum of these x alone, 0 on the other edges.
+/// that F is bounded, (1 − max (1 − Aᵀ y)_k) Σ x ≤ y · b. Of an unbounded F those are that no ray loads,
+/// likewise, with y of the largest sum of these x alone, 0 on the other edges.
 class SolutionBounds {
  public:
   /// `everywhere`: of the lightest vertex of every block.

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <gmpxx.h>
-
-#include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "libindet/base/constants.h"
-#include "libindet/exact/basis_solver.h"
+#include "libindet/exact/edge_span.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/doubled_equations.h"
 
@@ -25,14 +23,16 @@ namespace indet {
 ///
 ///   y* = y + δ,   δ = 0 outside of J,   A_JCᵀ δ = h_C,   |δ_j| ≤ ‖A_JC⁻ᵀ‖∞ ‖h_C‖∞
 ///
-/// has h*_k = 0 on C; and on all of U if g is *level* there, g_k = Σ_c β_kc g_c.
+/// has h*_k = 0 on C; and on all of U if g is *level* there, g_k = Σ_c β_kc g_c. (A, δ and h_C here with the
+/// scales of the exact problem.)
 class UnlimitedEdges {
  public:
-  /// Both must outlive this.
-  UnlimitedEdges(const ForcePolytope& polytope, const DoubledEquations& equations);
+  /// Precondition: the polytope has its exact problem and is not empty. Numbers of edges are those of its
+  /// problem.
+  explicit UnlimitedEdges(const ForcePolytope& polytope);
 
   bool contains(int edge) const { return contains_[static_cast<std::size_t>(edge)]; }
-  bool any() const { return !edges_.empty(); }
+  bool any() const { return norm_ > 0; }
 
   /// Whether Σ coefficient · force, of R_α (component 2α) and T_α (2α + 1), is level; without U, everything
   /// is.
@@ -46,26 +46,16 @@ class UnlimitedEdges {
   double load_reach() const { return load_reach_; }
 
  private:
-  void find_edges();
-  bool find_columns();
-  bool bound_inverse();
+  bool find_combinations(const std::vector<int>& edges);
+  void bound_reach(const ForcePolytope& polytope);
 
-  const ForcePolytope& polytope_;
-  const DoubledEquations& equations_;
-  std::vector<int> edges_;  ///< U, ascending
+  const exact::ContactProblem& exact_;
   std::vector<bool> contains_;
-  std::vector<int> rows_, columns_;  ///< J and C
-  std::vector<int> basis_;           ///< C by numbers of the exact problem, ascending
-  std::vector<exact::IntegerColumn> square_;
-  std::unique_ptr<exact::BasisSolver> solver_;  ///< of A_JC
-  /// β of another column of U, by its number in the exact problem, times `scale`.
-  struct Combination {
-    int edge;
-    mpq_class scale;
-    exact::Solution beta;
-  };
-  std::vector<Combination> combinations_;
-  double inverse_norm_ = kInfinity;  ///< bound of ‖A_JC⁻ᵀ‖∞
+  std::optional<exact::EdgeSpan> span_;          ///< of U
+  std::vector<std::pair<int, double>> columns_;  ///< C, with what exact strengths are divided by
+  /// Of other edges of U, by their numbers in the exact problem: β times a scale.
+  std::vector<std::pair<int, exact::EdgeSpan::Combination>> combinations_;
+  double norm_ = 0;  ///< bound of ‖A_JC⁻ᵀ‖∞; infinite if nothing is proven, 0 without U
   Eigen::VectorXd reach_;
   double load_reach_ = 0;
 };

@@ -20,7 +20,7 @@ class UnlimitedEdgesOfARow : public ::testing::Test {
   Packing packing_ = zoo::row_between_walls(kDisks, 0.5);
   ForcePolytope polytope_ = find_force_polytope(packing_);
   DoubledEquations equations_{polytope_};
-  UnlimitedEdges unlimited_{polytope_, equations_};
+  UnlimitedEdges unlimited_{polytope_};
 
   bool is_along_row(int contact) const { return std::abs(packing_[ContactId(contact)].normal.x()) > 0.5; }
 };
@@ -58,7 +58,7 @@ TEST(UnlimitedEdges, ThereAreNoneWhereForcesAreBounded) {
   const ForcePolytope polytope = find_force_polytope(zoo::lattice_pile(3, 0.6));
   ASSERT_EQ(polytope.status, PolytopeStatus::kBounded);
   const DoubledEquations equations(polytope);
-  const UnlimitedEdges unlimited(polytope, equations);
+  const UnlimitedEdges unlimited(polytope);
   EXPECT_FALSE(unlimited.any());
   EXPECT_TRUE(unlimited.is_level(Forces{{0, 1.0}}));
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(equations.columns());
