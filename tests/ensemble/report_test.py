@@ -68,10 +68,12 @@ class ReportTest(program.ProgramTest):
         self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", "one")
         self.run_indet("ensemble", "--seeds", "2", "--disks", "12", "--protocols", "cd1", "--samples", "0", "--uniform-seeds",
                        "0", "--smallest-distances", "-o", "simulated")
+        self.run_indet("ensemble", "--seeds", "2", "--disks", "12", "--protocols", "md1", "--samples", "0", "--uniform-seeds",
+                       "0", "-o", "springs")
         self.write("p", program.pyramid())
         self.run_indet("import", "--format", "csv", "p", "-o", "p.h5")
         self.run_indet("ensemble", "p.h5", "-o", "file", "--smallest-distances")
-        for folder in ("one", "simulated", "file"):
+        for folder in ("one", "simulated", "springs", "file"):
             self.run_indet("report", folder)
             page = (self.folder / folder / "report.html").read_text()
             text = re.sub(r"<[^>]*>", " ", re.sub(r"<(svg|style).*?</\1>", "", page, flags=re.DOTALL))

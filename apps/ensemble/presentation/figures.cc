@@ -351,28 +351,33 @@ std::vector<Figure> make_figures(const EnsembleTables& tables) {
     figures.back().finding += fmt::format("Smallest distances: {}.", known_smallest_distances(tables));
   if (samples.has_solver_states())
     figures.push_back(global(samples, "fig08-solver", "Fig. 8 with the solver's vertices", {kSolverChoice}));
-  figures.push_back(weak_and_strong(
-      samples, "fig09", "Fig. 9: local indeterminacy of weak and strong contacts",
-      {{"", "delta_R", "delta_T"}}, "δR, δT (mg)",
-      "The peak at 0 is due to weak contacts alone; large indeterminacy to strong ones.", true));
-  std::vector<PanelColumns> panels = {{"", "d_R", "d_T"}};
-  if (samples.has_smallest_distances()) {
-    panels.clear();
-    for (const WhichStates& choice : {kCanonicalChoice, kNearestChoice})
-      panels.push_back({choice.name, choice.normal, choice.tangential});
+  const bool has_cd1 = samples.has({Protocol::kCd1});  // figures 9, 10 and 12 are of CD-1 alone
+  if (has_cd1) {
+    figures.push_back(weak_and_strong(
+        samples, "fig09", "Fig. 9: local indeterminacy of weak and strong contacts",
+        {{"", "delta_R", "delta_T"}}, "δR, δT (mg)",
+        "The peak at 0 is due to weak contacts alone; large indeterminacy to strong ones.", true));
+    std::vector<PanelColumns> panels = {{"", "d_R", "d_T"}};
+    if (samples.has_smallest_distances()) {
+      panels.clear();
+      for (const WhichStates& choice : {kCanonicalChoice, kNearestChoice})
+        panels.push_back({choice.name, choice.normal, choice.tangential});
+    }
+    figures.push_back(weak_and_strong(
+        samples, "fig10", "Fig. 10: global indeterminacy of weak and strong contacts", panels, "dR, dT (mg)",
+        "The maximum near 0 is due to weak contacts; without them the main one shifts to "
+        "larger values.",
+        false));
   }
-  figures.push_back(weak_and_strong(
-      samples, "fig10", "Fig. 10: global indeterminacy of weak and strong contacts", panels, "dR, dT (mg)",
-      "The maximum near 0 is due to weak contacts; without them the main one shifts to "
-      "larger values.",
-      false));
   figures.push_back(places(samples));
-  figures.push_back(extremal_forces(samples, "fig12",
-                                    "Fig. 12: normal forces in simulated and extremal states", false,
-                                    kCanonicalChoice.which));
-  if (samples.has_solver_states()) {
-    figures.push_back(extremal_forces(samples, "fig12-solver", "Fig. 12 with the solver's vertices", true,
-                                      kSolverChoice.which));
+  if (has_cd1) {
+    figures.push_back(extremal_forces(samples, "fig12",
+                                      "Fig. 12: normal forces in simulated and extremal states", false,
+                                      kCanonicalChoice.which));
+    if (samples.has_solver_states()) {
+      figures.push_back(extremal_forces(samples, "fig12-solver", "Fig. 12 with the solver's vertices", true,
+                                        kSolverChoice.which));
+    }
   }
   figures.push_back(families(samples));
   for (Figure& figure : limit_figures(tables)) figures.push_back(std::move(figure));
