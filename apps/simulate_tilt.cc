@@ -14,14 +14,11 @@
 #include "apps/simulate_report.h"
 #include "apps/simulate_start.h"
 #include "libindet/base/error.h"
+#include "libindet/base/tolerances.h"
 #include "libsim/tilt.h"
 
 namespace indet::app {
 namespace {
-
-/// Forces that change by more than this (mg) while a packing comes to rest are not those that it was made
-/// with: polished forces differ by 1e-8 … 1e-4 mg from those of the simulator.
-constexpr double kOtherForces = 1e-2;
 
 sim::TiltOptions tilt_options_of(const SimulateOptions& o) {
   constexpr double kDegree = std::numbers::pi / 180;
@@ -87,7 +84,7 @@ int run_tilt(const SimulateOptions& o, const CLI::App& command, const Context& c
     print_tilt_report(o, packing, tilt, seconds);
     say("written to {}\n", o.output);
   }
-  if (tilt.start_distance > kOtherForces) {
+  if (tilt.start_distance > tolerance::kOtherForces) {
     context.warn(fmt::format(
         "{}: its forces changed by {:.2g} mg while it came to rest before gravity turned: tilt a packing by "
         "the simulator that made it, with the same options",

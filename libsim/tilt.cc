@@ -15,6 +15,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/base/tolerances.h"
+#include "libindet/packing/loads.h"
 #include "libsim/contact_memory.h"
 
 namespace indet::sim {
@@ -27,10 +28,6 @@ constexpr std::size_t kKeptStates = 64;
 constexpr double kMostSteps = 1e12;
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
-
-Vector2 turned(const Vector2& gravity, double angle) {
-  return gravity * std::cos(angle) + Vector2{-gravity.y(), gravity.x()} * std::sin(angle);
-}
 
 /// How far disks are from where they were.
 class Displacements {

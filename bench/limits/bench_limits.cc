@@ -28,7 +28,7 @@ double seconds(Work work) {
 }
 
 bool stands(Packing packing, double angle) {
-  packing.gravity = turned_gravity(packing, angle);
+  packing.gravity = turned(packing.gravity, angle);
   return find_force_polytope(packing).status != PolytopeStatus::kEmpty;
 }
 

@@ -141,7 +141,7 @@ Packing packing_at(const Packing& packing, const Limit& limit, double value) {
   if (limit.kind == LimitKind::kFriction) return with_friction(packing, limit.scaled, value);
   Packing tilted = without(packing, limit.left_out);
   if (limit.kind == LimitKind::kLoad) return under(limit.change, value, std::move(tilted));
-  tilted.gravity = turned_gravity(packing, value);
+  tilted.gravity = turned(packing.gravity, value);
   return tilted;
 }
 

@@ -15,20 +15,6 @@ namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-/// g turned by multiples of 90°, exactly.
-Vector2 quarter_turned(const Vector2& gravity, int quarters) {
-  switch (((quarters % 4) + 4) % 4) {
-    case 1:
-      return {-gravity.y(), gravity.x()};
-    case 2:
-      return -gravity;
-    case 3:
-      return {gravity.y(), -gravity.x()};
-    default:
-      return gravity;
-  }
-}
-
 /// Gravity about one of four directions, with λ = tan of the angle to it.
 struct Quarter {
   Packing packing;
@@ -72,11 +58,11 @@ class TiltCone {
   LoadLimitFinder& at(int quarter) {
     auto& slot = quarters_[quarter];
     if (!slot) {
-      Packing turned = packing_;
-      turned.gravity = quarter_turned(packing_.gravity, quarter);
+      Packing start = packing_;
+      start.gravity = turned(packing_.gravity, quarter * kRightAngle);
       Loads turn;
-      turn.gravity = quarter_turned(packing_.gravity, quarter + 1);
-      slot = std::make_unique<Quarter>(std::move(turned), std::move(turn), options_);
+      turn.gravity = turned(packing_.gravity, (quarter + 1) * kRightAngle);
+      slot = std::make_unique<Quarter>(std::move(start), std::move(turn), options_);
     }
     return slot->finder;
   }
@@ -112,13 +98,6 @@ class TiltCone {
 };
 
 }  // namespace
-
-Vector2 turned_gravity(const Packing& packing, double angle) {
-  const double quarters = std::round(angle / kRightAngle);
-  const double rest = angle - quarters * kRightAngle;
-  const Vector2 g = quarter_turned(packing.gravity, static_cast<int>(quarters));
-  return std::cos(rest) * g + std::sin(rest) * quarter_turned(g, 1);
-}
 
 bool is_under_gravity_alone(Packing packing) {
   packing.gravity.setZero();

@@ -32,7 +32,4 @@ TiltLimits find_tilt_limits(const Packing& packing, const LimitOptions& options 
 /// Gravity is all that acts: forces for a multiple of it are the same multiple of those for gravity.
 bool is_under_gravity_alone(Packing packing);
 
-/// Gravity turned by an angle; by multiples of 90° exactly.
-Vector2 turned_gravity(const Packing& packing, double angle);
-
 }  // namespace indet

@@ -61,7 +61,7 @@ class ArcFinder {
   }
 
  private:
-  Vector2 gravity_at(double angle) const { return turned_gravity(packing_, sign_ * angle); }
+  Vector2 gravity_at(double angle) const { return turned(packing_.gravity, sign_ * angle); }
   bool is_enclosed() const { return outside_ - inside_ <= 2 * tolerance::kTilt; }
 
   enum class Side : std::uint8_t { kIn, kOut, kUndecided };

@@ -4,12 +4,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
 #include "libindet/base/tolerances.h"
 
 namespace indet {
+namespace {
+
+/// Turned by multiples of 90°, exactly.
+Vector2 quarter_turned(const Vector2& gravity, int quarters) {
+  switch (((quarters % 4) + 4) % 4) {
+    case 1:
+      return {-gravity.y(), gravity.x()};
+    case 2:
+      return -gravity;
+    case 3:
+      return {gravity.y(), -gravity.x()};
+    default:
+      return gravity;
+  }
+}
+
+}  // namespace
+
+Vector2 turned(const Vector2& gravity, double angle) {
+  constexpr double kRightAngle = std::numbers::pi / 2;
+  const double quarters = std::round(angle / kRightAngle);
+  const double rest = angle - quarters * kRightAngle;
+  const Vector2 g = quarter_turned(gravity, static_cast<int>(quarters));
+  return std::cos(rest) * g + std::sin(rest) * quarter_turned(g, 1);
+}
 
 Vector3 Loads::wrench(const Packing& packing, DiskId disk) const {
   const Disk& body = packing[disk];

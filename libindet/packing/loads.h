@@ -25,6 +25,9 @@ struct Loads {
   bool is_zero() const;
 };
 
+/// Gravity turned by an angle (rad), counter-clockwise: g cos θ + g⊥ sin θ. By multiples of 90° exactly.
+Vector2 turned(const Vector2& gravity, double angle);
+
 /// Σ weight · loads, of two of one packing.
 Loads combined(double weight, const Loads& loads, double other_weight, const Loads& others);
 

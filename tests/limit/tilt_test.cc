@@ -18,7 +18,7 @@ namespace indet {
 namespace {
 
 Packing tilted(Packing packing, double angle) {
-  packing.gravity = turned_gravity(packing, angle);
+  packing.gravity = turned(packing.gravity, angle);
   return packing;
 }
 
@@ -55,7 +55,7 @@ TEST(Tilt, TowardsAWallIsARightAngleAndFromItNothing) {
 
 TEST(Tilt, OfWhatCannotStandIsWhereItCould) {
   Packing packing = zoo::wedge(0.4, 0.3);
-  packing.gravity = turned_gravity(packing, 1.0);
+  packing.gravity = turned(packing.gravity, 1.0);
   const TiltLimits limits = find_tilt_limits(packing);
   EXPECT_FALSE(limits.stands());
   EXPECT_NEAR(limits.largest.value, -0.6, 1e-12);
