@@ -18,7 +18,8 @@ enum ExitStatus : int {
   kUsage = 2,
   kBadInput = 3,  ///< Nothing was written.
   kNoAdmissibleState = 4,
-  kUncertain = 5  ///< Done, but something is imprecise or not solved.
+  kUncertain = 5,  ///< Done, but something is imprecise or not solved.
+  kOutOfTime = 6   ///< The time budget left something to do; the same command goes on.
 };
 
 /// The options contradict each other or something is missing: exit status 2.
@@ -29,14 +30,14 @@ class UsageError : public std::runtime_error {
 
 /// What every subcommand shares: the global options, the terminal, the configuration that was resolved.
 struct Context {
-  int threads = 0;              ///< 0: as many as the machine has.
+  int threads = 0;              ///< 0: as many as the task of a Slurm job has, else the machine.
   bool json = false;            ///< Print one JSON document on stdout instead of text.
   bool quiet = false;           ///< No report on stdout; neither progress nor notes on stderr.
   std::string config_file;      ///< Of --config; empty if there is none.
   std::string resolved_config;  ///< TOML of every option of this run, as stored in the files that it writes.
   std::vector<std::string> arguments;  ///< argv.
 
-  int thread_count() const;  ///< `threads`, or the number of cores.
+  int thread_count() const;
 
   /// Whether a subcommand prints its report as text: not with --json, nor with --quiet.
   bool prints_report() const { return !json && !quiet; }

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,84 +15,45 @@
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
 #include "apps/ensemble/members/run.h"
+#include "apps/ensemble_arguments.h"
 #include "apps/ensemble_output.h"
 #include "apps/interruption.h"
 #include "apps/memory_limit.h"
-#include "apps/numbers.h"
 #include "apps/output_files.h"
-#include "apps/packing_input.h"
 #include "apps/say.h"
+#include "apps/scheduler.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
 #include "libindet/lp/glpk_problem.h"
 #include "libsim/memory_estimate.h"
-#include "libsim/molecular_preset.h"
-#include "libsim/scene_toml.h"
 #include "libsim/time_estimate.h"
 
 namespace indet::app {
 namespace {
 
 struct EnsembleCommand {
-  std::string folder, scene_file, members, preset = "paper", uniform_seeds = "20", paper_walk = "60",
-                                           limits = "60";
-  std::optional<int> disks;
-  std::optional<double> mu;
-  EnsembleConfig config;
-  std::vector<std::string> protocol_names, files;
+  EnsembleArguments arguments;
+  ShareArguments share;
+  std::string members;
   bool dry_run = false;
   bool overwrite = false;
-  bool no_solver_states = false;
 };
 
-/// "all", or a number.
-std::int64_t count_of(const char* option, const std::string& text) {
-  std::int64_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (text == "all") return std::numeric_limits<std::int64_t>::max();
-  if (error != std::errc() || end != text.data() + text.size() || count < 0)
-    throw UsageError(fmt::format("{} {}: expected a number, or all", option, excerpt(text)));
-  return count;
-}
-
-EnsembleConfig config_of(const EnsembleCommand& o, bool seeds_given) {
-  EnsembleConfig config = o.config;
-  if (!o.scene_file.empty()) config.scene = sim::read_scene(o.scene_file);
-  if (o.disks) config.scene.disks = *o.disks;
-  if (o.mu) config.scene.friction = {*o.mu, *o.mu};
-  if (!o.protocol_names.empty()) config.protocols.clear();
-  for (const std::string& name : o.protocol_names)
-    config.protocols.push_back(sim::protocol_from(name).value());
-  for (const std::string& file : o.files) config.files.emplace_back(file);
-  // Files alone are an ensemble of their own.
-  if (!o.files.empty() && o.protocol_names.empty() && !seeds_given) config.protocols.clear();
-  config.molecular_dynamics = options_of(sim::molecular_preset_from(o.preset).value());
-  config.solver_states = !o.no_solver_states;
-  // Not more than there are.
-  const auto most = std::max(config.seeds, static_cast<std::int64_t>(config.files.size()));
-  config.uniform_seeds = std::min(count_of("--uniform-seeds", o.uniform_seeds), most);
-  config.paper_walk_seeds = std::min(count_of("--paper-walk", o.paper_walk), most);
-  config.limit_seeds = std::min(count_of("--limits", o.limits), most);
-  return config;
-}
-
-struct Range {
-  int first = 0;
-  int last = 0;
+/// The members that are asked for: "3-17", or "5" for one; else those of a shard; else all.
+struct Selection {
+  std::vector<Member> members;
+  std::string name;  ///< "members 3-17", "shard 3/8"; empty: all.
 };
 
-/// "3-17", or "5" for one member.
-Range range_of(const std::string& text, int members) {
-  if (text.empty()) return {0, members - 1};
-  Range range;
+std::vector<Member> numbered(const std::string& text, const Plan& plan) {
+  int first = 0, last = 0;
   std::size_t end = 0;
   try {
-    range.first = std::stoi(text, &end);
-    range.last = range.first;
+    first = last = std::stoi(text, &end);
     if (end < text.size() && text[end] == '-') {
       const std::string rest = text.substr(end + 1);
-      range.last = std::stoi(rest, &end);
+      last = std::stoi(rest, &end);
       if (end != rest.size()) throw std::invalid_argument(text);
     } else if (end != text.size()) {
       throw std::invalid_argument(text);
@@ -103,20 +62,29 @@ Range range_of(const std::string& text, int members) {
     throw UsageError(fmt::format("--members {}: expected FIRST-LAST or one number, as --dry-run lists them",
                                  excerpt(text)));
   }
-  if (range.first < 0 || range.first > range.last || range.last >= members)
-    throw UsageError(
-        fmt::format("--members {}: the members of this ensemble are 0-{}", excerpt(text), members - 1));
-  return range;
+  if (first < 0 || first > last || last >= std::ssize(plan.members)) {
+    throw UsageError(fmt::format("--members {}: the members of this ensemble are 0-{}", excerpt(text),
+                                 plan.members.size() - 1));
+  }
+  return {plan.members.begin() + first, plan.members.begin() + last + 1};
 }
 
-int list_members(const Plan& plan, const Range& range, const std::filesystem::path& folder,
-                 const Context& context) {
+Selection selection_of(const EnsembleCommand& o, const Plan& plan, const Context& context) {
+  if (!o.members.empty()) {
+    if (!o.share.shard.empty()) throw UsageError("--members and --shard do not go together");
+    return {numbered(o.members, plan), "members " + o.members};
+  }
+  const std::optional<Shard> shard = share_of(o.share, context);
+  if (!shard || shard->count == 1) return {plan.members, ""};
+  return {members_of(plan, *shard), "shard " + shard->name()};
+}
+
+int list_members(const Selection& selection, const std::filesystem::path& folder, const Context& context) {
   double total = 0;
   int open = 0;
   nlohmann::json json = nlohmann::json::array();
   if (context.prints_report()) say("{:>6}  {:<24} {:>13}\n", "member", "packing", "seconds");
-  for (const Member& member : plan.members) {
-    if (member.number < range.first || member.number > range.last) continue;
+  for (const Member& member : selection.members) {
     const bool is_done = member_is_done(member_path(folder, member.name), member);
     total += is_done ? 0 : member.cost;
     open += is_done ? 0 : 1;
@@ -161,55 +129,81 @@ void note_time(const EnsembleConfig& config, const Context& context) {
   }
 }
 
-int run(const EnsembleCommand& o, bool seeds_given, const Context& context) {
-  const auto begin = std::chrono::steady_clock::now();
-  const EnsembleConfig config = config_of(o, seeds_given);
-  if (config.sampling.samples > 0) {
-    if (const auto defect = config.sampling.defect()) throw InputError(*defect);
-  }
-  for (const std::string& file : o.files) open_packing(file);
-  const Plan plan = make_plan(config);
-  const Range range = range_of(o.members, static_cast<int>(plan.members.size()));
-  const std::filesystem::path folder = o.folder;
-  check_layout(folder);
-  try_reading(member_paths({folder}, plan), read_member);
-  if (o.dry_run) return list_members(plan, range, folder, context);
-  if (!config.protocols.empty())
-    require_memory(sim::memory_estimate(config.scene.disks),
-                   fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
-  note_time(config, context);
-  std::vector<std::filesystem::path> inputs(o.files.begin(), o.files.end());
-  inputs.emplace_back(o.scene_file);
-  claim_folder(folder, plan, replacement_rule(inputs, o.overwrite, context));
-  std::filesystem::create_directories(folder);
-  write_plan(folder, plan);
-
+RunOptions run_options(const EnsembleCommand& o, TaskLog& log, const Context& context) {
   RunOptions options;
   options.threads = context.thread_count();
-  options.first = range.first;
-  options.last = range.last;
   options.progress = [show = context.progress()](const Progress& progress) {
     set_remains(fmt::format("done: {}; the same command goes on", progress.details));
     return show(progress);
   };
-  options.warn = [&](const std::string& text) { context.warn(text); };
+  options.warn = [&context](const std::string& text) { context.warn(text); };
+  options.time_budget = time_budget_of(o.share);
+  options.log = &log;
+  options.checkpoints.hold_on = [] { return std::make_shared<CheckpointTime>(); };
+  options.checkpoints.on_written = [&log] { log.note_checkpoint(); };
   options.provenance = {context.arguments, context.resolved_config, {{"GLPK", glpk_version()}}, {}};
-  const RunSummary summary = compute_members(config, plan, folder, options);
-  for (const MemberFailure& failure : summary.failures)
-    context.warn(fmt::format("{}: {}", failure.member, failure.reason));
+  return options;
+}
+
+/// Computes what is selected; notes in FOLDER/tasks what becomes of it.
+BatchSummary compute(const EnsembleCommand& o, const EnsembleConfig& config, const Plan& plan,
+                     const Selection& selection, const Context& context) {
+  const std::filesystem::path folder = o.arguments.folder;
+  TaskLog log(folder,
+              {.work = plan.hash(),
+               .shard = selection.name,
+               .job = scheduler_job(),
+               .threads = context.thread_count()},
+              [&context](const std::string& text) { context.warn(text); });
+  set_last_act([&log] { log.end("stopped"); });
+  try {
+    const BatchSummary summary =
+        compute_members(config, plan, selection.members, folder, run_options(o, log, context));
+    set_last_act({});
+    log.end(summary.is_interrupted      ? "stopped"
+            : summary.out_of_time > 0   ? "out of time"
+            : !summary.failures.empty() ? "failed"
+                                        : "done");
+    return summary;
+  } catch (...) {
+    set_last_act({});
+    log.end("failed");
+    throw;
+  }
+}
+
+int run(const EnsembleCommand& o, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const EnsembleConfig config = config_of(o.arguments);
+  const Plan plan = make_plan(config);
+  const Selection selection = selection_of(o, plan, context);
+  const std::filesystem::path folder = o.arguments.folder;
+  check_layout(folder);
+  try_reading(member_paths({folder}, selection.members), read_member);
+  if (o.dry_run) return list_members(selection, folder, context);
+  if (!config.protocols.empty())
+    require_memory(sim::memory_estimate(config.scene.disks),
+                   fmt::format("a simulation of {}", counted(config.scene.disks, "disk")));
+  note_time(config, context);
+  std::vector<std::filesystem::path> inputs(o.arguments.files.begin(), o.arguments.files.end());
+  inputs.emplace_back(o.arguments.scene_file);
+  claim_folder(folder, selection.members, replacement_rule(inputs, o.overwrite, context));
+  std::filesystem::create_directories(folder);
+  write_plan(folder, plan);
+
+  const BatchSummary summary = compute(o, config, plan, selection, context);
+  for (const ItemFailure& failure : summary.failures)
+    context.warn(fmt::format("{}: {}", failure.item, failure.reason));
+  if (summary.is_interrupted) return stopped();
 
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  const int asked = range.last - range.first + 1;
-  if (summary.interrupted) return stopped();
-  if (context.prints_report()) print_molecular_dynamics(config, o.preset);
-  Outcomes outcomes{.done = summary.done, .skipped = summary.skipped, .failures = summary.failures};
-  if (asked < static_cast<int>(plan.members.size())) {
-    return report_part(folder, range.first, range.last, outcomes, seconds(), context);
-  }
+  if (context.prints_report()) print_molecular_dynamics(config, o.arguments.preset);
+  if (!selection.name.empty() || summary.out_of_time > 0)
+    return report_part(folder, selection.name, !o.members.empty(), summary, seconds(), context);
   Collection collection = collect_members(plan, {folder}, context.progress());
-  return finish_ensemble(folder, plan, std::move(collection), outcomes, seconds, context);
+  return finish_ensemble(folder, plan, std::move(collection), summary, seconds, context);
 }
 
 }  // namespace
@@ -218,88 +212,13 @@ Command add_ensemble(CLI::App& root) {
   const auto o = std::make_shared<EnsembleCommand>();
   CLI::App* command = root.add_subcommand(
       "ensemble", "Simulate, analyze and sample many packings, and collect the results in one file");
-  command
-      ->add_option("files", o->files,
-                   "Packings that exist already (.h5), to be taken instead of simulated ones")
-      ->check(CLI::ExistingFile);
-  command
-      ->add_option("-o,--out", o->folder,
-                   "Folder to write; if it was stopped, the same command goes on where it was")
-      ->required();
-  CLI::Option* seeds =
-      command->add_option("--seeds", o->config.seeds, "Number of seeds; each gives one packing per protocol")
-          ->check(positive())
-          ->capture_default_str();
-  command->add_option("--first-seed", o->config.first_seed, "The first seed; the others follow it")
-      ->check(not_negative())
-      ->capture_default_str();
-  command
-      ->add_option("--protocols", o->protocol_names,
-                   "Protocols, a list of cd1,cd2,md1,md2 (default: all; docs/simulation.md)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(sim::simulated_names()));
-  command->add_option("--scene", o->scene_file, "TOML file of the scene (docs/simulation.md)")
-      ->check(CLI::ExistingFile);
-  command->add_option("--disks", o->disks, "Number of disks (default: 95, or that of the scene)");
-  command->add_option("--mu", o->mu, "Friction coefficient (default: 0.3, or that of the scene)");
-  command
-      ->add_option(
-          "--preset", o->preset,
-          "md: stiffness and damping of contacts: 1.2e5, 7.7e4 (paper); 1.2e6, 7.7e4 (paper-overlap); "
-          "1.2e6, 558 (stiff)")
-      ->check(CLI::IsMember(sim::molecular_preset_names()))
-      ->capture_default_str();
-  command
-      ->add_option("--time-limit", o->config.time_limit,
-                   "Largest simulated time of each packing (0: 6 sqrt(Ly/g), as in the paper)")
-      ->check(not_negative())
-      ->capture_default_str();
-  command
-      ->add_option("--alpha", o->config.contact_dynamics.law.alpha,
-                   "cd: fraction of an overlap that is removed per step (0: overlaps stay as they are)")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command
-      ->add_option("--start-sweeps", o->config.contact_dynamics.start_sweeps,
-                   "cd2: largest number of sweeps of the first step, which starts from no forces")
-      ->check(positive())
-      ->capture_default_str();
-  command
-      ->add_option("--samples", o->config.sampling.samples,
-                   "Number of solutions of perturb-and-resolve per packing (0: none)")
-      ->check(not_negative())
-      ->capture_default_str();
-  command
-      ->add_option("--sample-distance", o->config.sampling.distance,
-                   "Solve until balanced forces are at most this far away (mg, norm over all contacts)")
-      ->check(not_negative())
-      ->capture_default_str();
-  command
-      ->add_option("--uniform-seeds", o->uniform_seeds,
-                   "Also sample the packings of this many seeds (and files) uniformly; all, or 0 for none")
-      ->capture_default_str();
-  command
-      ->add_option("--paper-walk", o->paper_walk,
-                   "Also find dR and dT of the packings of this many seeds (and files) by the walk of the "
-                   "paper; all, or 0 for none")
-      ->capture_default_str();
-  command
-      ->add_option("--limits", o->limits,
-                   "Also find how far the packings of this many seeds (and files) can be tilted, what their "
-                   "highest disk can carry, and with how little friction they stand; all, or 0 for none")
-      ->capture_default_str();
-  command->add_flag("--no-solver-states", o->no_solver_states,
-                    "Leave out dR and dT of the extremal states that the solver happens to find");
-  command->add_flag(
-      "--smallest-distances", o->config.smallest_distances,
-      "Also find dR_min and dT_min: the smallest distance between a state of largest and one of "
-      "smallest R (or T), whichever extremal states are taken. It takes longer than the ranges "
-      "themselves");
+  add_ensemble_options(*command, o->arguments);
+  add_share_options(*command, "seeds", o->share);
   command->add_option("--members", o->members,
                       "Compute only the packings numbered FIRST-LAST (indet merge joins the parts)");
   add_overwrite_option(*command, o->overwrite);
   command->add_flag("--dry-run", o->dry_run, "Only list the packings, their numbers and estimated times");
-  return {command, [o, seeds](const Context& context) { return run(*o, seeds->count() > 0, context); }};
+  return {command, [o](const Context& context) { return run(*o, context); }};
 }
 
 }  // namespace indet::app

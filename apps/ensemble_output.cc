@@ -15,23 +15,24 @@
 namespace indet::app {
 namespace {
 
-nlohmann::json failures_json(const std::vector<MemberFailure>& failures) {
+nlohmann::json failures_json(const std::vector<ItemFailure>& failures) {
   nlohmann::json json = nlohmann::json::array();
-  for (const MemberFailure& failure : failures)
-    json.push_back({{"member", failure.member}, {"reason", failure.reason}});
+  for (const ItemFailure& failure : failures)
+    json.push_back({{"member", failure.item}, {"reason", failure.reason}});
   return json;
 }
 
 }  // namespace
 
-void claim_folder(const std::filesystem::path& folder, const Plan& plan, const Replacement& rule) {
+void claim_folder(const std::filesystem::path& folder, const std::vector<Member>& members,
+                  const Replacement& rule) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::is_directory(folder, error)) return;
   rule.require(folder / "ensemble.toml", FileKind::kPlan);
   rule.require(folder / "ensemble.h5", FileKind::kEnsemble);
   const bool is_own = fs::exists(folder / "ensemble.toml", error);
-  for (const Member& member : plan.members) {
+  for (const Member& member : members) {
     const fs::path path = member_path(folder, member.name);
     if (!fs::is_regular_file(path, error)) continue;
     if (is_own) {
@@ -42,34 +43,43 @@ void claim_folder(const std::filesystem::path& folder, const Plan& plan, const R
   }
 }
 
-int report_part(const std::filesystem::path& folder, int first, int last, const Outcomes& outcomes,
-                double seconds, const Context& context) {
+int report_part(const std::filesystem::path& folder, const std::string& name, bool is_joined,
+                const BatchSummary& summary, double seconds, const Context& context) {
   if (context.json) {
     std::cout << nlohmann::json{{"folder", folder.string()},
-                                {"first", first},
-                                {"last", last},
-                                {"done", outcomes.done},
-                                {"skipped", outcomes.skipped},
-                                {"failures", failures_json(outcomes.failures)},
+                                {"part", name},
+                                {"done", summary.done},
+                                {"skipped", summary.there_already},
+                                {"out_of_time", summary.out_of_time},
+                                {"failures", failures_json(summary.failures)},
                                 {"seconds", seconds}}
                      .dump(2)
               << '\n';
   } else if (context.prints_report()) {
-    say("members {}-{}: {} computed, {} there already, {} failed ({:.1f} s)\n", first, last, outcomes.done,
-        outcomes.skipped, outcomes.failures.size(), seconds);
-    say("join the parts with indet merge\n");
+    const std::string left =
+        summary.out_of_time > 0 ? fmt::format(", {} left for want of time", summary.out_of_time) : "";
+    say("{}: {} computed, {} there already, {} failed{} ({:.1f} s)\n", name.empty() ? "all members" : name,
+        summary.done, summary.there_already, summary.failures.size(), left, seconds);
+    if (summary.out_of_time > 0) {
+      say("the same command goes on\n");
+    } else if (is_joined) {
+      say("join the parts with indet merge\n");
+    } else {
+      say("once all shards are done, the same command without --shard collects the results\n");
+    }
   }
-  return outcomes.failures.empty() ? kDone : kUncertain;
+  if (summary.out_of_time > 0) return kOutOfTime;
+  return summary.failures.empty() ? kDone : kUncertain;
 }
 
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,
-                    const Outcomes& outcomes, const std::function<double()>& seconds,
+                    const BatchSummary& summary, const std::function<double()>& seconds,
                     const Context& context) {
   EnsembleContents contents{.config = plan.config,
                             .hash = plan.hash(),
                             .tables = std::move(collection.tables),
                             .missing = {},
-                            .failures = outcomes.failures};
+                            .failures = summary.failures};
   for (const MissingMember& missing : collection.missing) {
     contents.missing.push_back(missing.member);
     if (!missing.reason.empty()) context.warn(missing.reason);
@@ -91,10 +101,10 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
                            {"unbounded", runs.sum("unbounded")},
                            {"imprecise", runs.sum("imprecise")},
                            {"not_found", runs.sum("failed")},
-                           {"done", outcomes.done},
-                           {"skipped", outcomes.skipped},
+                           {"done", summary.done},
+                           {"skipped", summary.there_already},
                            {"missing", contents.missing},
-                           {"failures", failures_json(outcomes.failures)},
+                           {"failures", failures_json(summary.failures)},
                            {"seconds", seconds()}};
     if (!known.empty()) {
       json["smallest_distances"] = {{"known", runs.sum("d_min_known")},
@@ -104,8 +114,8 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
     std::cout << json.dump(2) << '\n';
   } else if (context.prints_report()) {
     say("{}: {} computed, {} there already, {} failed\n",
-        counted(static_cast<std::int64_t>(plan.members.size()), "packing"), outcomes.done, outcomes.skipped,
-        outcomes.failures.size());
+        counted(static_cast<std::int64_t>(plan.members.size()), "packing"), summary.done,
+        summary.there_already, summary.failures.size());
     const double unbounded = runs.sum("unbounded");
     say("{}, {} extrema: {} certified{}, {} imprecise, {} failed\n",
         counted(static_cast<std::int64_t>(contents.tables.contacts.rows()), "contact"),

@@ -35,10 +35,12 @@ std::atomic<bool> wrote = false;
 std::atomic<bool> told = false;
 sem_t arrived;
 
-/// What `stopped` says is left. It is not destroyed: the watching thread may outlive main().
+/// What `stopped` says is left, and what is done before the end. It is not destroyed: the watching thread may
+/// outlive main().
 struct Remains {
   std::mutex mutex;
   std::string text;
+  std::function<void()> last_act;
 };
 
 Remains& remains() {
@@ -47,7 +49,7 @@ Remains& remains() {
 }
 
 void remember(int number) {
-  signal_number = number;
+  signal_number = number == SIGUSR1 ? SIGTERM : number;
   sem_post(&arrived);
 }
 
@@ -90,6 +92,10 @@ void tell(const std::string& text) {
     tell("stopping; a checkpoint is written at the end of this step (once more Ctrl-C or SIGTERM: none)");
     wait_for_signal(kCheckpointGrace);
   }
+  {
+    const std::scoped_lock lock(remains().mutex);
+    if (remains().last_act) remains().last_act();
+  }
   abandon_files();
   _exit(stopped());
 }
@@ -106,6 +112,7 @@ void catch_signals() {
   }
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  std::signal(SIGUSR1, remember);
 }
 
 int caught_signal() { return signal_number; }
@@ -126,6 +133,11 @@ int stopped() {
 void set_remains(std::string text) {
   const std::scoped_lock lock(remains().mutex);
   remains().text = std::move(text);
+}
+
+void set_last_act(std::function<void()> act) {
+  const std::scoped_lock lock(remains().mutex);
+  remains().last_act = std::move(act);
 }
 
 CheckpointTime::CheckpointTime() { ++checkpoint_times; }

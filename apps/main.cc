@@ -41,6 +41,7 @@ constexpr const char* kFooter =
     "  3      bad input; nothing was written\n"
     "  4      no contact forces balance the load within friction, and bounds where there are any\n"
     "  5      done, but some result is imprecise, failed or wrong\n"
+    "  6      the time budget left something to do; the same command goes on\n"
     "  128+n  stopped by signal n\n";
 
 std::vector<Command> add_commands(CLI::App& root) {
@@ -83,8 +84,10 @@ int run(int argc, char** argv) {
   root.add_option("--config", context.config_file,
                   "Read options from this TOML file, with a table per subcommand")
       ->type_name("FILE");
-  root.add_option("--threads", context.threads,
-                  "Number of threads (0: one per core); results do not depend on it")
+  root.add_option(
+          "--threads", context.threads,
+          "Number of threads (0: one per core, in a Slurm job one per processor of the task); results do "
+          "not depend on it")
       ->check(not_negative())
       ->capture_default_str();
   root.add_flag("--json", context.json, "Print one JSON document on stdout instead of text");

@@ -41,7 +41,7 @@ int run(const MergeCommand& o, const Context& context) {
     }
   }
   const fs::path folder = o.folder;
-  claim_folder(folder, plan, replacement_rule({}, o.overwrite, context));
+  claim_folder(folder, plan.members, replacement_rule({}, o.overwrite, context));
   // What an earlier merge brought there is the same file under two names.
   std::vector<fs::path> folders = parts;
   if (fs::exists(folder / "ensemble.toml") && recognise(folder / "ensemble.toml") == FileKind::kPlan) {
@@ -51,7 +51,7 @@ int run(const MergeCommand& o, const Context& context) {
                                     [&](const fs::path& part) { return fs::equivalent(part, folder); });
     if (!listed) folders.push_back(folder);
   }
-  try_reading(member_paths(folders, plan), read_member);
+  try_reading(member_paths(folders, plan.members), read_member);
   Collection collection = collect_members(plan, folders, context.progress());
   const std::vector<MissingMember>& missing = collection.missing;
   if (!missing.empty() && !o.allow_missing) {
@@ -66,12 +66,12 @@ int run(const MergeCommand& o, const Context& context) {
   remove_leftovers(folder);
   remove_leftovers(members_folder(folder));
   write_plan(folder, plan);
-  Outcomes outcomes;
+  BatchSummary summary;
   for (const Member& member : plan.members) {
     for (const fs::path& part : folders) {
       const fs::path from = member_path(part, member.name);
       if (!member_is_done(from, member)) continue;
-      ++outcomes.skipped;
+      ++summary.there_already;
       if (!member_is_done(member_path(folder, member.name), member))
         link_whole_file(from, member_path(folder, member.name));
       break;
@@ -80,7 +80,7 @@ int run(const MergeCommand& o, const Context& context) {
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  return finish_ensemble(folder, plan, std::move(collection), outcomes, seconds, context);
+  return finish_ensemble(folder, plan, std::move(collection), summary, seconds, context);
 }
 
 }  // namespace

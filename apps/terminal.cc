@@ -11,6 +11,7 @@
 
 #include "apps/command.h"
 #include "apps/interruption.h"
+#include "apps/scheduler.h"
 #include "libindet/base/printable.h"
 #include "libindet/base/remaining_time.h"
 
@@ -86,7 +87,8 @@ class ProgressBar {
 }  // namespace
 
 int Context::thread_count() const {
-  return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (threads > 0) return threads;
+  return processors_of_task().value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
 ProgressCallback Context::progress() const {

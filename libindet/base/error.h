@@ -19,6 +19,18 @@ class LibraryError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A path where no file can be made: read-only, no such folder, no right to.
+class UnwritablePath : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// A file that was begun cannot be written to its end: the disk is full, or fails.
+class WritingFailed : public LibraryError {
+ public:
+  using LibraryError::LibraryError;
+};
+
 /// The user, or a caller's progress callback, asked to stop. Nothing half-written is left behind.
 class Interrupted : public std::runtime_error {
  public:

@@ -12,6 +12,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet {
 namespace {

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <mutex>
 #include <optional>
@@ -71,15 +72,6 @@ Unfinished& unfinished() {
 constexpr std::size_t kLongestName = 150;  // of 255 bytes; a host has 64 at most
 constexpr std::chrono::hours kOld{24};
 
-std::string host_name() {
-  std::array<char, 65> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
-  std::string host = name.data();
-  std::replace_if(
-      host.begin(), host.end(), [](char c) { return c == '.' || c == '/'; }, '-');
-  return host;
-}
-
 bool is_number(const std::string& text) {
   return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
 }
@@ -105,8 +97,6 @@ std::optional<Writer> writer_of(const std::string& name) {
   return Writer{host, static_cast<pid_t>(std::stol(process))};
 }
 
-bool is_alive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
-
 bool is_old(const std::filesystem::path& path) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(path, error);
@@ -114,6 +104,17 @@ bool is_old(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string host_in_names() {
+  std::array<char, 65> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
+  std::string host = name.data();
+  std::replace_if(
+      host.begin(), host.end(), [](char c) { return c == '.' || c == '/'; }, '-');
+  return host;
+}
+
+bool is_alive(std::int64_t process) { return kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM; }
 
 WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
   const Destination destination = destination_of(path);
@@ -123,7 +124,7 @@ WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
   const std::scoped_lock lock(unfinished().mutex);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    throw InputError(
+    throw UnwritablePath(
         fmt::format("{}: cannot be written ({})", path.string(), std::generic_category().message(errno)));
   }
   ::close(descriptor);
@@ -145,7 +146,7 @@ WholeFile::WholeFile(WholeFile&& other) noexcept
 
 void WholeFile::check(int error) const {
   if (error == 0) return;
-  throw LibraryError(
+  throw WritingFailed(
       fmt::format("{}: writing failed ({})", path_.string(), std::generic_category().message(error)));
 }
 
@@ -155,14 +156,14 @@ void WholeFile::write(std::span<const unsigned char> bytes) {
   check(write_into(target_, bytes, false));
 }
 
-void WholeFile::take_names(std::span<WholeFile> files) {
+void WholeFile::take_names(std::span<WholeFile> files, bool asks) {
   std::vector<const WholeFile*> named;
   {
     const std::scoped_lock lock(unfinished().mutex);
     const bool only_streams = std::all_of(files.begin(), files.end(),
                                           [](const WholeFile& file) { return file.temporary_.empty(); });
     if (only_streams) return;
-    if (!unfinished().permission()) throw Interrupted();
+    if (asks && !unfinished().permission()) throw Interrupted();
     for (WholeFile& file : files) {
       if (file.temporary_.empty()) continue;
       file.check(::rename(file.temporary_.c_str(), file.target_.c_str()) == 0 ? 0 : errno);
@@ -181,6 +182,12 @@ void WholeFile::commit(std::span<const unsigned char> bytes) {
 
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes) {
   write_whole_files({{path, bytes}});
+}
+
+void write_note(const std::filesystem::path& path, const std::string& bytes) {
+  WholeFile file(path);
+  file.write({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  WholeFile::take_names({&file, 1}, false);
 }
 
 void write_whole_files(const std::vector<FileText>& texts) {
@@ -227,11 +234,11 @@ void abandon_files() {
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
   static std::atomic<int> counter{0};
   const std::string name = path.filename().string().substr(0, kLongestName);
-  return path.parent_path() / fmt::format(".{}.{}.{}.{}.tmp", name, host_name(), getpid(), counter++);
+  return path.parent_path() / fmt::format(".{}.{}.{}.{}.tmp", name, host_in_names(), getpid(), counter++);
 }
 
 void remove_leftovers(const std::filesystem::path& folder) {
-  const std::string host = host_name();
+  const std::string host = host_in_names();
   std::error_code ignored;
   std::vector<std::filesystem::path> leftovers;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {

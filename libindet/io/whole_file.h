@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -19,20 +20,21 @@ struct FileText {
 /// was. Devices and FIFOs are written in place.
 class WholeFile {
  public:
-  /// Throws InputError where the path cannot be written.
+  /// Throws UnwritablePath.
   explicit WholeFile(const std::filesystem::path& path);
   ~WholeFile();
   WholeFile(WholeFile&& other) noexcept;
   WholeFile& operator=(WholeFile&& other) = delete;
 
-  /// Throws LibraryError if writing fails (a full disk), Interrupted without permission. Once.
+  /// Throws WritingFailed, Interrupted without permission. Once.
   void commit(std::span<const unsigned char> bytes);
 
  private:
   friend void write_whole_files(const std::vector<FileText>& texts);
+  friend void write_note(const std::filesystem::path& path, const std::string& bytes);
   void write(std::span<const unsigned char> bytes);
   void check(int error) const;
-  static void take_names(std::span<WholeFile> files);
+  static void take_names(std::span<WholeFile> files, bool asks = true);
 
   std::filesystem::path path_;       ///< As given, for messages.
   std::filesystem::path target_;     ///< With links followed.
@@ -41,6 +43,9 @@ class WholeFile {
 
 /// All at once.
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes);
+
+/// What a program notes about its own run, and needs no permission for (ask_before_writing).
+void write_note(const std::filesystem::path& path, const std::string& bytes);
 
 /// Files that belong together: none takes its name before all are written.
 void write_whole_files(const std::vector<FileText>& texts);
@@ -60,6 +65,11 @@ void abandon_files();
 /// The name that a file is written under until it is whole: .NAME.HOST.PROCESS.COUNTER.tmp, new with every
 /// call. A long NAME is cut, and a dot in HOST is written as −.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
+
+/// The name of this machine as it stands in names of files: with − for a dot.
+std::string host_in_names();
+/// Whether there is such a process on this host.
+bool is_alive(std::int64_t process);
 
 /// Removes from a folder the temporary files of writers that were killed: those of this host whose process is
 /// no longer alive, and, since other hosts cannot be asked, all that are older than a day. The files of

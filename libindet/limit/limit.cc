@@ -8,6 +8,7 @@
 #include "libindet/limit/friction_limit.h"
 #include "libindet/limit/mechanism.h"
 #include "libindet/limit/tilt.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet {
 

@@ -9,6 +9,7 @@
 #include "libindet/base/constants.h"
 #include "libindet/base/rounding_bounds.h"
 #include "libindet/limit/tilt_arc.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet {
 namespace {

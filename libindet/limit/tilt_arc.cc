@@ -11,6 +11,7 @@
 #include "libindet/base/tolerances.h"
 #include "libindet/limit/mechanism.h"
 #include "libindet/limit/standing.h"
+#include "libindet/packing/force_bounds.h"
 
 namespace indet {
 namespace {

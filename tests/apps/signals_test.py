@@ -4,6 +4,7 @@ The stages of a subcommand are told apart by the processor time that it has had:
 goes on long after the signal.
 """
 
+import json
 import math
 import pathlib
 import shutil
@@ -79,8 +80,11 @@ class Signals(program.ProgramTest):
                 for left in set(self.files()) - inputs:
                     self.assertIn(left, ("e", "out.checkpoint"))
                 if (self.folder / "e").exists():
-                    self.assertEqual(sorted(path.name for path in (self.folder / "e").rglob("*")),
-                                     ["ensemble.toml", "members"])
+                    self.assertEqual(sorted(path.name for path in (self.folder / "e").iterdir()),
+                                     ["ensemble.toml", "members", "tasks"])
+                    self.assertEqual(list((self.folder / "e/members").iterdir()), [])
+                    record = json.loads(next((self.folder / "e/tasks").iterdir()).read_text())
+                    self.assertEqual((record["state"], record["in_hand"]), ("stopped", []))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "libindet/base/error.h"
 #include "libindet/base/toml_text.h"
 #include "libindet/io/whole_file.h"
@@ -29,7 +32,11 @@ void write_plan(const std::filesystem::path& folder, const Plan& plan) {
                         toml_text(member.name), to_string(member.protocol), member.seed, member.cost,
                         member.hash);
   }
-  write_whole_file(folder / "ensemble.toml", text);
+  const std::filesystem::path path = folder / "ensemble.toml";
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream there;
+  there << file.rdbuf();
+  if (there.str() != text) write_whole_file(path, text);
 }
 
 Plan read_plan(const std::filesystem::path& folder) {
@@ -75,11 +82,15 @@ std::filesystem::path member_path(const std::filesystem::path& folder, const std
   return members_folder(folder) / (name + ".h5");
 }
 
+std::filesystem::path checkpoint_path(const std::filesystem::path& folder, const std::string& name) {
+  return folder / "checkpoints" / (name + ".h5");
+}
+
 std::vector<std::filesystem::path> member_paths(const std::vector<std::filesystem::path>& folders,
-                                                const Plan& plan) {
+                                                const std::vector<Member>& members) {
   std::vector<std::filesystem::path> paths;
   for (const std::filesystem::path& folder : folders) {
-    for (const Member& member : plan.members) paths.push_back(member_path(folder, member.name));
+    for (const Member& member : members) paths.push_back(member_path(folder, member.name));
   }
   return paths;
 }

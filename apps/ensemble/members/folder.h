@@ -16,16 +16,17 @@ namespace indet {
 void check_layout(const std::filesystem::path& folder);
 
 /// FOLDER/ensemble.toml: which members an ensemble has, so that parts can be joined and missing ones be
-/// named.
+/// named. Left alone where it says so already.
 void write_plan(const std::filesystem::path& folder, const Plan& plan);
 /// Throws InputError. `config` of the members is not stored.
 Plan read_plan(const std::filesystem::path& folder);
 
 /// FOLDER/members, with one file a member.
 std::filesystem::path members_folder(const std::filesystem::path& folder);
+std::filesystem::path checkpoint_path(const std::filesystem::path& folder, const std::string& name);
 std::filesystem::path member_path(const std::filesystem::path& folder, const std::string& name);
-/// Those of all members in each of the folders, whether there is a file or not.
+/// Those of these members in each of the folders, whether there is a file or not.
 std::vector<std::filesystem::path> member_paths(const std::vector<std::filesystem::path>& folders,
-                                                const Plan& plan);
+                                                const std::vector<Member>& members);
 
 }  // namespace indet

@@ -24,12 +24,30 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+/// A listener that stops where `progress` says so, and keeps what is worth it.
+sim::Listener listener_for(const MemberCheckpoint& checkpoint, const ProgressCallback& progress) {
+  const CheckpointRules& rules = checkpoint.rules();
+  const Stopwatch watch;
+  const auto is_worth_keeping = [watch, &rules] { return watch.seconds() >= rules.worth_keeping; };
+  sim::Listener listener;
+  listener.progress = [=, &rules, time = std::shared_ptr<void>()](const Progress& report) mutable {
+    if (!time && rules.hold_on && is_worth_keeping()) time = rules.hold_on();
+    return !progress || progress(report);
+  };
+  listener.checkpoint_seconds = rules.interval;
+  listener.on_checkpoint = [=, &checkpoint](const sim::Checkpoint& state) {
+    if (is_worth_keeping()) checkpoint.save(state);
+  };
+  return listener;
+}
+
 sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& scene, const sim::World& world,
-                             sim::Protocol protocol, const ProgressCallback& progress) {
+                             sim::Protocol protocol, const sim::Listener& listener,
+                             const std::optional<sim::Checkpoint>& resume) {
   sim::SimulationOptions options = simulation_options_of(config, protocol);
   if (options.time_limit == 0) options.time_limit = sim::default_time_limit(world, scene.height);
   if (const auto reason = options.defect(world)) throw InputError(*reason);
-  sim::Simulation result = sim::simulate(world, {}, options, {.progress = progress});
+  sim::Simulation result = sim::simulate(world, {}, options, listener, resume ? &*resume : nullptr);
   if (!result.polished.balanced)
     throw LibraryError(
         fmt::format("{}: the forces do not balance: {}", to_string(protocol), result.polished.reason));
@@ -37,17 +55,20 @@ sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& sce
 }
 
 void simulate_member(const EnsembleConfig& config, const Member& member, const std::optional<Packing>& first,
-                     const ProgressCallback& progress, MemberResult& result) {
+                     const MemberCheckpoint& checkpoint, const ProgressCallback& progress,
+                     MemberResult& result) {
   const Stopwatch watch;
   const sim::Scene scene = scene_of(config, member);
   sim::World world = sim::build(scene);
   if (starts_from_cd1(member.protocol)) {
     const Packing start =
-        first ? *first : run_protocol(config, scene, world, sim::Protocol::kCd1, progress).packing;
+        first ? *first
+              : run_protocol(config, scene, world, sim::Protocol::kCd1, {.progress = progress}, {}).packing;
     world = sim::world_of(start, scene.friction);
     world.bring_to_rest();
   }
-  const sim::Simulation simulation = run_protocol(config, scene, world, member.protocol, progress);
+  const sim::Simulation simulation = run_protocol(config, scene, world, member.protocol,
+                                                  listener_for(checkpoint, progress), checkpoint.load(world));
   result.packing = simulation.packing;
   result.packing.origin = {
       .protocol = to_string(member.protocol), .seed = member.seed, .config = member.config};
@@ -144,12 +165,12 @@ ExtremalForces count_extremal_forces(const Rows<double>& states, const Table4<st
 
 MemberResult compute_member(const EnsembleConfig& config, const Member& member,
                             const std::optional<Packing>& given, const std::optional<Packing>& first,
-                            const ProgressCallback& progress) {
+                            const MemberCheckpoint& checkpoint, const ProgressCallback& progress) {
   MemberResult result;
   if (given) {
     result.packing = *given;
   } else {
-    simulate_member(config, member, first, progress, result);
+    simulate_member(config, member, first, checkpoint, progress, result);
   }
   analyze_member(config, progress, result);
   const WeightStates chain = sample_member(config, member, progress, result);

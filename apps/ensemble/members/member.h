@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ensemble/members/checkpoint.h"
 #include "apps/ensemble/members/limits_step.h"
 #include "apps/ensemble/members/paper_walk_step.h"
 #include "apps/ensemble/members/plan.h"
@@ -47,9 +48,9 @@ struct MemberResult {
 /// Simulates (or takes `given`, the packing of a file), analyses and samples one packing, on the calling
 /// thread. `first`: the cd1 packing that cd2 and md2 start from; where it is missing it is simulated. The
 /// result is the same either way. Throws InputError or LibraryError if there is no packing with balanced
-/// forces; Interrupted.
+/// forces; Interrupted, after its simulation has left a checkpoint, from which the next call goes on.
 MemberResult compute_member(const EnsembleConfig& config, const Member& member,
                             const std::optional<Packing>& given, const std::optional<Packing>& first,
-                            const ProgressCallback& progress);
+                            const MemberCheckpoint& checkpoint, const ProgressCallback& progress);
 
 }  // namespace indet

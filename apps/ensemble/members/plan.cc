@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "apps/bridge/simulation_values.h"
@@ -161,6 +162,26 @@ std::string Plan::hash() const {
   std::string text;
   for (const Member& member : members) text += member.name + " " + member.hash + "\n";
   return digest(text);
+}
+
+std::vector<Member> members_of(const Plan& plan, const Shard& shard) {
+  std::vector<double> costs;
+  std::map<std::int64_t, std::size_t> group_of_seed;
+  std::vector<std::size_t> group_of;  // of each member
+  for (const Member& member : plan.members) {
+    std::size_t group = costs.size();
+    if (member.protocol != sim::Protocol::kFile)
+      group = group_of_seed.emplace(member.seed, group).first->second;
+    if (group == costs.size()) costs.push_back(0);
+    costs[group] += member.cost;
+    group_of.push_back(group);
+  }
+  const std::vector<int> share_of = deal(costs, shard.count);
+  std::vector<Member> members;
+  for (std::size_t i = 0; i < plan.members.size(); ++i) {
+    if (share_of[group_of[i]] == shard.number) members.push_back(plan.members[i]);
+  }
+  return members;
 }
 
 sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/batch/shard.h"
 #include "libindet/sampling/uniform_sampling.h"
 #include "libsim/perturb_sampling.h"
 #include "libsim/protocol.h"
@@ -62,6 +63,10 @@ struct Plan {
 /// Lists the packings of an ensemble. Throws InputError if the scene cannot be built, a file cannot be read,
 /// two files have the same name, or there is nothing to do.
 Plan make_plan(const EnsembleConfig& config);
+
+/// The members of one share of the work. Those of one seed stay together, so that a protocol finds what it
+/// starts from; each share costs about the same.
+std::vector<Member> members_of(const Plan& plan, const Shard& shard);
 
 /// "cd1-0007".
 std::string simulated_name(sim::Protocol protocol, std::int64_t seed);

@@ -1,130 +1,84 @@
 #include "apps/ensemble/members/run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <exception>
+#include <map>
 #include <mutex>
 #include <random>
-#include <thread>
+#include <utility>
 
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
-#include "libindet/base/worker_team.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
 namespace {
 
-using std::chrono::milliseconds;
-
-/// What the workers share.
-class Batch {
+class MemberBatch {
  public:
-  Batch(const EnsembleConfig& config, const Plan& plan, const std::filesystem::path& folder,
-        const RunOptions& options)
-      : config_(config), plan_(plan), folder_(folder), options_(options) {
-    const int last = options.last < 0 ? static_cast<int>(plan.members.size()) - 1 : options.last;
+  MemberBatch(const EnsembleConfig& config, const Plan& plan, const std::vector<Member>& members,
+              const std::filesystem::path& folder, const RunOptions& options)
+      : config_(config), folder_(folder), options_(options) {
     for (const Member& member : plan.members) {
-      if (member.number < options.first || member.number > last) continue;
+      if (member.protocol == sim::Protocol::kCd1) starts_[member.seed] = &member;
+    }
+    for (const Member& member : members) {
       const MemberState state = examine_member(member_path(folder, member.name), member);
       if (state.status == MemberStatus::kUnreadable && options.warn)
         options.warn(state.reason + "; it is computed again");
       if (state.status == MemberStatus::kDone) {
-        ++summary_.skipped;
+        ++batch_.there_already;
       } else {
         open_.push_back(&member);
-        total_cost_ += member.cost;
       }
     }
-    asked_ = open_.size() + static_cast<std::size_t>(summary_.skipped);
     Random random(std::random_device{}());
     for (std::size_t i = open_.size(); i > 1; --i) std::swap(open_[i - 1], open_[random.below(i)]);
     std::stable_sort(open_.begin(), open_.end(),
                      [](const Member* a, const Member* b) { return a->cost > b->cost; });
+    add_items();
+    batch_.is_done = [this](std::size_t item) { return is_done(*open_[item]); };
+    batch_.compute = [this](std::size_t item, const ProgressCallback& progress) {
+      return compute(*open_[item], progress);
+    };
   }
 
-  RunSummary run() {
-    std::exception_ptr failure;
-    std::thread driver([&] {
-      try {
-        WorkerTeam team(std::min(options_.threads, static_cast<int>(open_.size())));
-        team.run(static_cast<std::int64_t>(open_.size()), [&](int, std::int64_t index) {
-          if (!stop_) work(*open_[static_cast<std::size_t>(index)]);
-        });
-      } catch (...) {
-        failure = std::current_exception();
-      }
-      const std::scoped_lock lock(mutex_);
-      finished_ = true;
-      changed_.notify_all();
-    });
-    watch();
-    driver.join();
-    if (failure) std::rethrow_exception(failure);
-    summary_.interrupted = stop_;
-    std::sort(summary_.failures.begin(), summary_.failures.end(),
-              [](const MemberFailure& a, const MemberFailure& b) { return a.member < b.member; });
-    return summary_;
+  BatchSummary run() {
+    return run_items(batch_, {.threads = options_.threads,
+                              .stage = "ensemble",
+                              .items = "packings",
+                              .progress = options_.progress,
+                              .time_budget = options_.time_budget,
+                              .log = options_.log});
   }
 
  private:
-  /// Reports progress from the calling thread until the workers are done.
-  void watch() {
-    std::unique_lock lock(mutex_);
-    for (bool is_last = false; !is_last;) {
-      changed_.wait_for(lock, milliseconds(100), [this] { return finished_; });
-      is_last = finished_;
-      const std::string details =
-          fmt::format("{} of {} packings{}", summary_.done + summary_.skipped, asked_,
-                      summary_.failures.empty() ? "" : fmt::format(", {} failed", summary_.failures.size()));
-      const Progress progress{.stage = "ensemble",
-                              .done = static_cast<std::int64_t>(1000 * done_cost_),
-                              .total = static_cast<std::int64_t>(1000 * total_cost_),
-                              .details = details};
-      lock.unlock();
-      if (options_.progress && !options_.progress(progress)) stop_ = true;
-      lock.lock();
+  void add_items() {
+    std::map<std::int64_t, std::size_t> open_starts;  // by seed
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (open_[i]->protocol == sim::Protocol::kCd1) open_starts[open_[i]->seed] = i;
+    }
+    for (const Member* member : open_) {
+      WorkItem item{member->name, member->cost};
+      const auto start = open_starts.find(member->seed);
+      if (starts_from_cd1(member->protocol) && start != open_starts.end()) item.after = start->second;
+      batch_.items.push_back(std::move(item));
     }
   }
 
-  void work(const Member& member) {
-    try {
-      if (is_done_now(member)) {
-        count(member, summary_.skipped);
-        return;
-      }
-      const MemberResult result = compute_member(config_, member, source(member), start(member),
-                                                 [this](const Progress&) { return !stop_; });
-      if (!is_done_now(member)) {
-        const std::scoped_lock lock(hdf5_);
-        write_member(member_path(folder_, member.name), member, result, options_.provenance);
-      }
-    } catch (const Interrupted&) {
-      stop_ = true;
-      return;
-    } catch (const std::exception& error) {
-      const std::scoped_lock lock(mutex_);
-      summary_.failures.push_back({member.name, error.what()});
-      done_cost_ += member.cost;
-      return;
-    }
-    count(member, summary_.done);
+  std::map<std::string, double> compute(const Member& member, const ProgressCallback& progress) {
+    const MemberCheckpoint checkpoint(folder_, member, options_.checkpoints, options_.provenance, hdf5_);
+    const MemberResult result =
+        compute_member(config_, member, source(member), start(member), checkpoint, progress);
+    const std::scoped_lock lock(hdf5_);
+    const std::filesystem::path path = member_path(folder_, member.name);
+    if (!member_is_done(path, member)) write_member(path, member, result, options_.provenance);
+    checkpoint.remove();
+    return result.seconds;
   }
 
-  void count(const Member& member, int& counter) {
-    const std::scoped_lock lock(mutex_);
-    ++counter;
-    done_cost_ += member.cost;
-  }
-
-  /// Another process may have done it meanwhile.
-  bool is_done_now(const Member& member) {
+  bool is_done(const Member& member) {
     const std::scoped_lock lock(hdf5_);
     return member_is_done(member_path(folder_, member.name), member);
   }
@@ -137,40 +91,32 @@ class Batch {
 
   /// The cd1 packing of the same seed, if it is there already.
   std::optional<Packing> start(const Member& member) {
-    if (!starts_from_cd1(member.protocol)) return std::nullopt;
-    for (const Member& other : plan_.members) {
-      if (other.protocol != sim::Protocol::kCd1 || other.seed != member.seed) continue;
-      const std::filesystem::path path = member_path(folder_, other.name);
-      const std::scoped_lock lock(hdf5_);
-      if (member_is_done(path, other)) return read_packing(path);
-    }
-    return std::nullopt;
+    const auto found = starts_.find(member.seed);
+    if (!starts_from_cd1(member.protocol) || found == starts_.end()) return std::nullopt;
+    const std::filesystem::path path = member_path(folder_, found->second->name);
+    const std::scoped_lock lock(hdf5_);
+    if (!member_is_done(path, *found->second)) return std::nullopt;
+    return read_packing(path);
   }
 
   const EnsembleConfig& config_;
-  const Plan& plan_;
   const std::filesystem::path& folder_;
   const RunOptions& options_;
+  std::map<std::int64_t, const Member*> starts_;  ///< The cd1 members of the plan by seed.
   std::vector<const Member*> open_;
-  std::size_t asked_ = 0;  ///< Members of this run, those included that were done before.
-  double total_cost_ = 0;
+  Batch batch_;
   std::mutex hdf5_;
-  std::mutex mutex_;  ///< Guards the members below.
-  std::condition_variable changed_;
-  RunSummary summary_;
-  double done_cost_ = 0;
-  bool finished_ = false;
-  std::atomic<bool> stop_ = false;
 };
 
 }  // namespace
 
-RunSummary compute_members(const EnsembleConfig& config, const Plan& plan,
-                           const std::filesystem::path& folder, const RunOptions& options) {
+BatchSummary compute_members(const EnsembleConfig& config, const Plan& plan,
+                             const std::vector<Member>& members, const std::filesystem::path& folder,
+                             const RunOptions& options) {
   std::filesystem::create_directories(members_folder(folder));
   remove_leftovers(folder);
   remove_leftovers(members_folder(folder));
-  return Batch(config, plan, folder, options).run();
+  return MemberBatch(config, plan, members, folder, options).run();
 }
 
 }  // namespace indet

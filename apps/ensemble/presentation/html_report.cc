@@ -183,8 +183,8 @@ std::string table_of_times(const EnsembleTables& tables) {
 std::string failures(const EnsembleContents& contents) {
   if (contents.failures.empty() && contents.missing.empty()) return "<p>No packing failed.</p>\n";
   std::string text = "<ul>\n";
-  for (const MemberFailure& failure : contents.failures)
-    text += fmt::format("<li>{}: {}</li>\n", escaped(failure.member), escaped(failure.reason));
+  for (const ItemFailure& failure : contents.failures)
+    text += fmt::format("<li>{}: {}</li>\n", escaped(failure.item), escaped(failure.reason));
   for (const std::string& name : contents.missing)
     text += fmt::format("<li>{} is missing</li>\n", escaped(name));
   return text + "</ul>\n";

@@ -56,8 +56,8 @@ void write_ensemble(const std::filesystem::path& path, const EnsembleContents& c
   write_provenance_part(file, provenance);
   contents.tables.timings.write(file, "/provenance/members");
   std::vector<std::string> members, reasons;
-  for (const MemberFailure& failure : contents.failures) {
-    members.push_back(failure.member);
+  for (const ItemFailure& failure : contents.failures) {
+    members.push_back(failure.item);
     reasons.push_back(failure.reason);
   }
   file.make_group("/provenance/failures");

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/ensemble/members/run.h"
+#include "apps/batch/task_record.h"
+#include "apps/ensemble/members/plan.h"
 #include "apps/ensemble/tables/ensemble_tables.h"
 #include "apps/ensemble/tables/figure.h"
 #include "libindet/io/packing_file.h"
@@ -17,7 +18,7 @@ struct EnsembleContents {
   std::string hash;  ///< Of the plan.
   EnsembleTables tables;
   std::vector<std::string> missing;  ///< Members that the plan has and the tables lack.
-  std::vector<MemberFailure> failures;
+  std::vector<ItemFailure> failures;
 };
 
 void write_ensemble(const std::filesystem::path& path, const EnsembleContents& contents,
