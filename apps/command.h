@@ -71,6 +71,7 @@ Command add_simulate(CLI::App& root);
 Command add_sample(CLI::App& root);
 Command add_ensemble(CLI::App& root);
 Command add_merge(CLI::App& root);
+Command add_submit(CLI::App& root);
 Command add_status(CLI::App& root);
 Command add_report(CLI::App& root);
 Command add_trajectory(CLI::App& root);

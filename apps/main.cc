@@ -46,9 +46,10 @@ constexpr const char* kFooter =
 
 std::vector<Command> add_commands(CLI::App& root) {
   std::vector<Command> commands = {
-      add_simulate(root),   add_import(root),   add_analyze(root), add_limit(root),  add_compare(root),
-      add_sample(root),     add_inspect(root),  add_verify(root),  add_export(root), add_trajectory(root),
-      add_completion(root), add_ensemble(root), add_status(root),  add_merge(root),  add_report(root)};
+      add_simulate(root), add_import(root),     add_analyze(root),    add_limit(root),
+      add_compare(root),  add_sample(root),     add_inspect(root),    add_verify(root),
+      add_export(root),   add_trajectory(root), add_completion(root), add_ensemble(root),
+      add_submit(root),   add_status(root),     add_merge(root),      add_report(root)};
   for (const Command& command : commands) {
     command.options->fallthrough();  // global options may follow the subcommand
     name_environment_variables(*command.options);

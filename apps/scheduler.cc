@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <memory>
 
 #include "apps/numbers.h"
+#include "apps/shell.h"
 #include "libindet/base/printable.h"
 
 namespace indet::app {
@@ -32,27 +30,6 @@ std::optional<std::int64_t> number_of(const char* variable) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
-}
-
-/// "1-02:03:04", "02:03:04", "03:04" in seconds; nothing of "UNLIMITED" and the like.
-std::optional<double> seconds_from(const std::string& text) {
-  int days = 0, hours = 0, minutes = 0, seconds = 0;
-  char rest = 0;
-  const char* const all = text.c_str();
-  if (std::sscanf(all, "%d-%d:%d:%d%c", &days, &hours, &minutes, &seconds, &rest) == 4 ||
-      (days = 0, std::sscanf(all, "%d:%d:%d%c", &hours, &minutes, &seconds, &rest) == 3) ||
-      (hours = 0, std::sscanf(all, "%d:%d%c", &minutes, &seconds, &rest) == 2))
-    return ((days * 24.0 + hours) * 60 + minutes) * 60 + seconds;
-  return std::nullopt;
-}
-
-/// The first line that a command prints; empty if it fails.
-std::string first_line_of(const std::string& command) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
-  std::array<char, 256> line{};
-  if (!pipe || std::fgets(line.data(), line.size(), pipe.get()) == nullptr) return "";
-  const std::string text = line.data();
-  return text.substr(0, text.find_first_of("\r\n"));
 }
 
 }  // namespace

@@ -22,7 +22,6 @@ namespace indet::app {
 namespace {
 
 using Item = WorkStatus::Item;
-using nlohmann::json;
 
 struct StatusCommand {
   std::string folder;
@@ -64,10 +63,10 @@ Workers workers_of(const WorkStatus& status, const std::optional<int>& asked, co
   return workers;
 }
 
-json to_json(const SharedWork& work, const WorkStatus& status, const Workers& workers) {
-  json tasks = json::array(), failures = json::array(), missing = json::array();
+nlohmann::json to_json(const SharedWork& work, const WorkStatus& status, const Workers& workers) {
+  nlohmann::json tasks = nlohmann::json::array(), failures = tasks, missing = tasks;
   for (const WorkStatus::Task& task : status.tasks) {
-    json in_hand = json::array();
+    nlohmann::json in_hand = nlohmann::json::array();
     for (const TaskRecord::ItemInHand& item : task.record.in_hand)
       in_hand.push_back({{"name", item.name}, {"since", item.since}});
     tasks.push_back({{"host", task.record.host},

@@ -152,6 +152,25 @@ std::string config_of(const EnsembleConfig& config) {
   return text;
 }
 
+/// What stays together when members are dealt.
+struct Groups {
+  std::vector<double> costs;
+  std::vector<std::size_t> of_member;
+};
+
+Groups groups_of(const Plan& plan) {
+  Groups groups;
+  std::map<std::int64_t, std::size_t> group_of_seed;
+  for (const Member& member : plan.members) {
+    std::size_t group = groups.costs.size();
+    if (member.protocol != Protocol::kFile) group = group_of_seed.emplace(member.seed, group).first->second;
+    if (group == groups.costs.size()) groups.costs.push_back(0);
+    groups.costs[group] += member.cost;
+    groups.of_member.push_back(group);
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::string simulated_name(Protocol protocol, std::int64_t seed) {
@@ -165,24 +184,16 @@ std::string Plan::hash() const {
 }
 
 std::vector<Member> members_of(const Plan& plan, const Shard& shard) {
-  std::vector<double> costs;
-  std::map<std::int64_t, std::size_t> group_of_seed;
-  std::vector<std::size_t> group_of;  // of each member
-  for (const Member& member : plan.members) {
-    std::size_t group = costs.size();
-    if (member.protocol != sim::Protocol::kFile)
-      group = group_of_seed.emplace(member.seed, group).first->second;
-    if (group == costs.size()) costs.push_back(0);
-    costs[group] += member.cost;
-    group_of.push_back(group);
-  }
-  const std::vector<int> share_of = deal(costs, shard.count);
+  const Groups groups = groups_of(plan);
+  const std::vector<int> share_of = deal(groups.costs, shard.count);
   std::vector<Member> members;
   for (std::size_t i = 0; i < plan.members.size(); ++i) {
-    if (share_of[group_of[i]] == shard.number) members.push_back(plan.members[i]);
+    if (share_of[groups.of_member[i]] == shard.number) members.push_back(plan.members[i]);
   }
   return members;
 }
+
+int group_count(const Plan& plan) { return static_cast<int>(groups_of(plan).costs.size()); }
 
 sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {
   sim::Scene scene = config.scene;
