@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "libindet/base/error.h"
-#include "libindet/base/tolerances.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/force_polytope.h"
-#include "libindet/range/barrier_ranges.h"
-#include "libindet/range/central_states.h"
+#include "libindet/range/analysis_start.h"
+#include "libindet/range/barrier_analysis.h"
 #include "libindet/range/distance_search.h"
 #include "libindet/range/drop_states.h"
 #include "libindet/range/enclosure.h"
@@ -27,32 +26,10 @@
 #include "libindet/range/open_ends.h"
 #include "libindet/range/proven_rays.h"
 #include "libindet/range/reactions.h"
+#include "libindet/range/stopwatch.h"
 
 namespace indet {
 namespace {
-
-/// Contacts from which the barrier method is the faster one for values, and for canonical states too
-/// (docs/decisions/barrier-method.md).
-constexpr int kFewestForBarrier = 200;
-constexpr int kFewestForCentralStates = 500;
-
-/// Unknowns up to which linear programs take seconds.
-constexpr int kMostForSecondSearch = 1000;
-
-/// Adds the time since the last mark to a stage.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::map<std::string, double>& seconds) : seconds_(seconds) {}
-  void mark(const std::string& stage) {
-    const auto now = std::chrono::steady_clock::now();
-    seconds_[stage] += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  std::map<std::string, double>& seconds_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// How the search of a polytope is to be done.
 SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions& options, Method method) {
@@ -74,63 +51,6 @@ SearchOptions search_options(const ForcePolytope& polytope, const AnalyzeOptions
     };
   }
   return search;
-}
-
-IntervalOptions interval_options(const AnalyzeOptions& options, const char* stage) {
-  IntervalOptions intervals;
-  intervals.gap = options.gap;
-  intervals.threads = options.threads;
-  if (options.progress) {
-    intervals.progress = [&options, stage](std::int64_t settled, std::int64_t total) {
-      return options.progress({stage, settled, total, {}});
-    };
-  }
-  return intervals;
-}
-
-/// The polytope in the form that the method works on. Where the barrier method cannot decide, linear programs
-/// do, and they find the values, too, unless F is bounded after all. So they do where it cannot prove enough
-/// of an unbounded F, or has no states of it, in a packing that is small enough for their dense matrices.
-ForcePolytope find_polytope(const Packing& packing, const AnalyzeOptions& options, bool wants_states,
-                            MethodChoice& choice) {
-  if (choice.method != Method::kBarrier) return find_force_polytope(packing, options.lp);
-  std::optional<ForcePolytope> sparse = find_sparse_polytope(packing);
-  const bool is_large = 2 * packing.contact_count() > tolerance::kMostForDense;
-  const bool has_centre = sparse && (sparse->central || (sparse->unbounded && (is_large || !wants_states)));
-  if (sparse && is_large && sparse->status == PolytopeStatus::kUnbounded && !has_centre)
-    choice.reason =
-        "forces are unbounded, the bodies that they press together can still move, for which this method has "
-        "no values, and the packing is too large for lp";
-  if (sparse && (is_large || has_centre || sparse->status == PolytopeStatus::kEmpty))
-    return std::move(*sparse);
-  if (!sparse && is_large)
-    throw LibraryError(
-        "double precision does not tell whether contact forces balance here, or whether they stay "
-        "bounded, and exact arithmetic is too slow for " +
-        std::to_string(packing.contact_count()) + " contacts");
-  ForcePolytope polytope = find_force_polytope(packing, options.lp);
-  if (!add_centre(polytope)) {
-    choice.method = Method::kLp;
-    choice.reason = std::string("the barrier method is for polytopes with a centre, and this one is ") +
-                    (polytope.status == PolytopeStatus::kBounded ? "too thin" : to_string(polytope.status));
-  }
-  return polytope;
-}
-
-/// Whether values of an unbounded F came out too wide, as that of a force which only the exact equations keep
-/// from growing along a ray, in a packing for which linear programs soon find all.
-bool is_left_to_programs(const Packing& packing, const ForcePolytope& polytope, const BarrierRanges& found) {
-  if (!polytope.unbounded || polytope.natural.unknowns() > kMostForSecondSearch) return false;
-  for (Eigen::Index i = 0; i < packing.contact_count(); ++i) {
-    for (int column = 0; column < 4; ++column) {
-      if (found.extrema.claim(i, column) != Outcome::kEnclosed) continue;
-      const EnclosedValue value =
-          enclosed_value(found.enclosures.lower(i, column), found.enclosures.upper(i, column),
-                         found.extrema.gap, polytope.problem.units.weight_in_scene());
-      if (value.outcome != Outcome::kEnclosed) return true;
-    }
-  }
-  return found.reactions.uncertain() > 0;
 }
 
 /// The contacts whose ranges are to be found, ascending.
@@ -156,14 +76,6 @@ Wanted choose_contacts(const ContactChoice& choice, const ForcePolytope& polytop
   return wanted;
 }
 
-void add_smallest_distances(const ForcePolytope& polytope, const std::vector<int>& contacts,
-                            const AnalyzeOptions& options, Stopwatch& stopwatch, ForceRanges& ranges) {
-  if (!options.smallest_distances) return;
-  ranges.smallest =
-      find_smallest_distances(polytope, ranges, contacts, interval_options(options, "smallest distances"));
-  stopwatch.mark("smallest distances");
-}
-
 /// Says why there are no estimates of a polytope that is not empty.
 void require_centre(const ForcePolytope& polytope) {
   if (polytope.doubtful)
@@ -178,49 +90,18 @@ void require_centre(const ForcePolytope& polytope) {
                    "standard finds them");
 }
 
-/// What the barrier method keeps. Who asks for it by name asks for intervals, unless states are asked for,
-/// too; where the level of accuracy would do with those of a solver, canonical ones take their place.
-StateChoice states_by_barrier(StateChoice kept, bool is_asked_for) {
-  if (!kept.within_limit && kept.kind == StateChoice::Kind::kSolver)
-    throw InputError(
-        "the barrier method lands inside of optimal faces and not on extremal states; canonical ones are "
-        "found, or --method lp finds those of a solver");
-  if (kept.kind == StateChoice::Kind::kSolver) kept.kind = StateChoice::Kind::kCanonical;
-  if (is_asked_for && kept.within_limit && kept.keeps_all()) kept.kind = StateChoice::Kind::kNone;
-  return kept;
-}
-
-/// The states that are to be kept, where the method has any.
-void add_states(const Packing& packing, const ForcePolytope& polytope, const StateChoice& kept,
-                const std::vector<int>& contacts, const AnalyzeOptions& options, BarrierRanges& found) {
-  if (kept.kind == StateChoice::Kind::kNone || polytope.status == PolytopeStatus::kEmpty) return;
-  if (!polytope.central) {
-    found.extrema.reason =
-        "forces are unbounded, for which this method has no extremal states, and the packing is too large "
-        "for lp";
-    return;
-  }
-  const Enclosures& enclosures = found.enclosures;
-  const Table4<double> middles = enclosures.lower + (enclosures.upper - enclosures.lower) / 2;
-  add_canonical_states(packing, polytope, kept,
-                       kept.keeps_all() ? contacts : contacts_with_states(kept, middles),
-                       interval_options(options, "extremal states"), found);
-}
-
 ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& options) {
-  StateChoice kept = limited(options.states, packing.contact_count());
   std::map<std::string, double> seconds;
   Stopwatch stopwatch(seconds);
-  MethodChoice choice =
-      options.method ? MethodChoice{*options.method, ""} : choose_method(packing.contact_count(), kept);
-  if (choice.method == Method::kBarrier) kept = states_by_barrier(kept, options.method.has_value());
-  if (options.estimate) choice.method = Method::kBarrier;
-  ForcePolytope polytope = find_polytope(packing, options, kept.kind != StateChoice::Kind::kNone, choice);
+  const auto stage = [&](const char* name) {
+    return interval_options(options.gap, options.threads, options.progress, name);
+  };
+  AnalysisStart start = begin_analysis(packing, options);
+  auto& [kept, choice, polytope] = start;
   if (options.estimate && polytope.status != PolytopeStatus::kEmpty) {
     require_centre(polytope);
     stopwatch.mark("polytope");
-    ForceRanges ranges =
-        estimate_ranges(packing, polytope, *options.estimate, interval_options(options, "force ranges"));
+    ForceRanges ranges = estimate_ranges(packing, polytope, *options.estimate, stage("force ranges"));
     stopwatch.mark("estimates");
     ranges.seconds = std::move(seconds);
     return ranges;
@@ -229,22 +110,14 @@ ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& opt
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
   stopwatch.mark("polytope");
   if (choice.method == Method::kBarrier) {
-    BarrierRanges found = find_barrier_ranges(packing, polytope, contacts, request, options.reactions,
-                                              interval_options(options, "force ranges"), options.duals);
+    const BarrierAnalysis analysis(packing, start, contacts, request, options);
     stopwatch.mark("ranges");
-    if (!is_left_to_programs(packing, polytope, found)) {
-      found.extrema.reason = std::move(choice.reason);
-      add_states(packing, polytope, kept, contacts, options, found);
-      stopwatch.mark("states");
-      ForceRanges ranges =
-          assemble(packing, summarise(packing, polytope), request, found.extrema, found.enclosures);
-      ranges.reactions = std::move(found.reactions);
-      ranges.duals = std::move(found.duals);
-      stopwatch.mark("measures");
-      add_smallest_distances(polytope, contacts, options, stopwatch, ranges);
-      ranges.seconds = std::move(seconds);
-      return ranges;
+    std::optional<ForceRanges> ranges = analysis.find(contacts, request, options.threads, options.progress);
+    if (ranges) {
+      for (const auto& [name, time] : seconds) ranges->seconds[name] += time;
+      return std::move(*ranges);
     }
+    stopwatch.mark("ranges");
     polytope = find_force_polytope(packing, options.lp);
     choice = {Method::kLp,
               "forces are unbounded, and the barrier method bounds some of the limited ones too widely"};
@@ -261,8 +134,7 @@ ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& opt
     reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
   stopwatch.mark("reactions");
   if (!polytope.central) add_centre(polytope);
-  Enclosures enclosures =
-      enclose_values(polytope, extrema, reactions.optima, interval_options(options, "enclosures").progress);
+  Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima, stage("enclosures").progress);
   enclosures.proven = enclosures.proven && prove_rays(packing, *polytope.exact, extrema.rays);
   const bool reactions_proven =
       enclosures.proven && prove_rays(packing, *polytope.exact, reactions.reactions.rays);
@@ -277,7 +149,10 @@ ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& opt
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);
   stopwatch.mark("measures");
-  add_smallest_distances(polytope, contacts, options, stopwatch, ranges);
+  if (options.smallest_distances) {
+    ranges.smallest = find_smallest_distances(polytope, ranges, contacts, stage("smallest distances"));
+    stopwatch.mark("smallest distances");
+  }
   ranges.seconds = std::move(seconds);
   return ranges;
 }
@@ -390,18 +265,6 @@ ForceRanges analyze(const Packing& packing, const AnalyzeOptions& options) {
       settle(ranges, requested_contacts(ranges, options.contacts, packing.contact_count()));
   if (exact) return std::move(*exact);
   return is_asked_for ? drop_states(std::move(ranges), kept) : ranges;
-}
-
-MethodChoice choose_method(int contacts, const StateChoice& states) {
-  using Kind = StateChoice::Kind;
-  if (states.kind == Kind::kNone) {
-    if (contacts < kFewestForBarrier) return {Method::kLp, "a small packing"};
-    return {Method::kBarrier, "a large packing, and no extremal states are wanted"};
-  }
-  if (states.kind == Kind::kSolver && !states.within_limit)
-    return {Method::kLp, "the extremal states on which a solver lands are wanted"};
-  if (contacts < kFewestForCentralStates) return {Method::kLp, "extremal states are wanted"};
-  return {Method::kBarrier, "a large packing"};
 }
 
 Formulation choose_formulation(int dim) {

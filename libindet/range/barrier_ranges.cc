@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -15,7 +16,6 @@
 #include "libindet/range/determined_forces.h"
 #include "libindet/range/dual_collector.h"
 #include "libindet/range/functional.h"
-#include "libindet/range/growth_search.h"
 
 namespace indet {
 namespace {
@@ -27,36 +27,41 @@ struct Target {
   int column = 0;
   double sign = 1;      ///< −1: a maximum, of which the objective is the least value with the other sign
   double rounding = 0;  ///< what roundings of the objective's coefficients change at most
+
+  BarrierPreparation::Key key() const { return {is_reaction, row, column}; }
 };
+
+bool has_centre(const ForcePolytope& polytope) { return polytope.central || polytope.unbounded; }
+
+const CentralPolytope& centre_of(const ForcePolytope& polytope) {
+  return polytope.central ? *polytope.central : *polytope.unbounded->within;
+}
 
 class BarrierSearch {
  public:
-  BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const std::vector<int>& contacts,
-                const CentralWidths& widths, bool reactions, const IntervalOptions& options,
-                const DualChoice& duals)
+  /// `contacts`: of the part.
+  BarrierSearch(const Packing& packing, const ForcePolytope& polytope, const BarrierPreparation& prepared,
+                const std::vector<int>& contacts, const IntervalOptions& options)
       : packing_(packing),
         polytope_(polytope),
         problem_(polytope.problem),
+        prepared_(prepared),
         contacts_(contacts),
-        widths_(widths),
+        is_first_(prepared.contacts.empty() ||
+                  (!contacts.empty() && contacts.front() == prepared.contacts.front())),
         options_(options),
-        choice_(duals),
-        sums_(reactions ? reaction_sums(packing) : std::vector<ReactionSum>()) {
+        sums_(prepared.reactions && is_first_ ? reaction_sums(packing) : std::vector<ReactionSum>()) {
     prepare();
   }
 
   BarrierRanges run() {
     if (polytope_.status == PolytopeStatus::kEmpty) return without_states(Outcome::kNotRequested);
-    if (!polytope_.central && !polytope_.unbounded) return without_states(Outcome::kFailed);
-    with_duals_ = contacts_with_duals(choice_, contacts_);
-    if (!with_duals_.empty() && !polytope_.central)
-      throw InputError(
-          "some contact forces can grow without limit here, and multipliers that prove values are kept of "
-          "packings where all are limited; --duals none leaves them out");
+    if (!has_centre(polytope_)) return without_states(Outcome::kFailed);
+    std::set_intersection(prepared_.with_duals.begin(), prepared_.with_duals.end(), contacts_.begin(),
+                          contacts_.end(), std::back_inserter(with_duals_));
     if (!with_duals_.empty()) duals_.emplace(packing_, polytope_, with_duals_);
-    list_contacts();
-    list_reactions();
-    if (polytope_.unbounded) take_out_unbounded(*polytope_.unbounded);
+    list_objectives();
+    if (polytope_.unbounded) take_out_unbounded();
     std::vector<bool> keeps_proof;
     for (const Target& target : targets_) keeps_proof.push_back(has_duals(target));
     std::vector<ValueInterval> intervals =
@@ -67,9 +72,17 @@ class BarrierSearch {
     for (std::size_t k = 0; k < targets_.size(); ++k) store(targets_[k], std::move(intervals[k]));
     finish_reactions();
     if (duals_) result_.duals = duals_->take();
-    if (choice_.kind == DualChoice::Kind::kSample && result_.duals.are_kept())
-      result_.duals.seed = static_cast<std::int64_t>(choice_.seed);
+    if (result_.duals.are_kept()) result_.duals.seed = prepared_.dual_seed;
     return std::move(result_);
+  }
+
+  /// Looks for the objectives that grow without limit, and does nothing else.
+  void find_rays(BarrierPreparation& found) {
+    list_objectives();
+    found.growth = find_growth(*polytope_.unbounded, problem_, objectives_, options_);
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      if (const int ray = found.growth.ray[k]; ray >= 0) found.ray_of[targets_[k].key()] = ray;
+    }
   }
 
  private:
@@ -127,10 +140,13 @@ class BarrierSearch {
     objectives_.push_back(std::move(objective));
   }
 
+  void list_objectives() {
+    list_contacts();
+    list_reactions();
+  }
+
   void list_contacts() {
-    const CentralPolytope& central = polytope_.central ? *polytope_.central : *polytope_.unbounded->within;
-    if (widths_.width.rows() == 0) widths_ = central_widths(problem_, central);
-    const DeterminedForces determined(problem_, central);
+    const DeterminedForces determined(problem_, centre_of(polytope_));
     const std::vector<int> first = problem_.first_unknowns();
     for (const int i : contacts_) {
       for (const bool tangential : {false, true}) {
@@ -156,7 +172,7 @@ class BarrierSearch {
     ValueInterval interval{0, 0, 0, 0, {}, {}};
     if (!objective.empty()) {
       const bool may_vary =
-          polytope_.dim > 0 && !is_determined(packing_, widths_, least.row, least.column == kMinT);
+          polytope_.dim > 0 && !is_determined(packing_, prepared_.widths, least.row, least.column == kMinT);
       if (may_vary) return false;
       const auto total = static_cast<std::int64_t>(4 * contacts_.size());
       if (options_.progress && !options_.progress(0, total)) throw Interrupted();
@@ -187,18 +203,21 @@ class BarrierSearch {
   }
 
   /// Notes what grows without limit, and leaves the other objectives.
-  void take_out_unbounded(const UnboundedPolytope& unbounded) {
-    const Growth growth = find_growth(unbounded, problem_, objectives_, options_);
-    result_.extrema.pivots += growth.iterations;
-    result_.extrema.solves += growth.searches;
+  void take_out_unbounded() {
+    const Growth& growth = prepared_.growth;
+    if (is_first_) {
+      result_.extrema.pivots += growth.iterations;
+      result_.extrema.solves += growth.searches;
+    }
     std::vector<Target> targets;
     std::vector<barrier::Objective> objectives;
     for (std::size_t k = 0; k < targets_.size(); ++k) {
-      if (growth.ray[k] < 0) {
+      const auto ray = prepared_.ray_of.find(targets_[k].key());
+      if (ray == prepared_.ray_of.end()) {
         targets.push_back(targets_[k]);
         objectives.push_back(std::move(objectives_[k]));
       } else {
-        store_ray(targets_[k], growth.ray[k], growth.rays[static_cast<std::size_t>(growth.ray[k])]);
+        store_ray(targets_[k], ray->second, growth.rays[static_cast<std::size_t>(ray->second)]);
       }
     }
     targets_ = std::move(targets);
@@ -290,10 +309,10 @@ class BarrierSearch {
   const Packing& packing_;
   const ForcePolytope& polytope_;
   const EquilibriumProblem& problem_;
+  const BarrierPreparation& prepared_;
   const std::vector<int>& contacts_;
-  CentralWidths widths_;
+  bool is_first_;  ///< the part that has what is found once
   const IntervalOptions& options_;
-  const DualChoice& choice_;
   std::vector<int> with_duals_;  ///< ascending
   std::optional<DualCollector> duals_;
   std::vector<ReactionSum> sums_;
@@ -305,10 +324,39 @@ class BarrierSearch {
 
 }  // namespace
 
+BarrierPreparation prepare_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
+                                          std::vector<int> contacts, CentralWidths widths, bool reactions,
+                                          const IntervalOptions& options, const DualChoice& duals) {
+  BarrierPreparation prepared;
+  prepared.contacts = std::move(contacts);
+  prepared.reactions = reactions;
+  prepared.widths = std::move(widths);
+  if (polytope.status == PolytopeStatus::kEmpty || !has_centre(polytope)) return prepared;
+  prepared.with_duals = contacts_with_duals(duals, prepared.contacts);
+  if (!prepared.with_duals.empty() && !polytope.central)
+    throw InputError(
+        "some contact forces can grow without limit here, and multipliers that prove values are kept of "
+        "packings where all are limited; --duals none leaves them out");
+  if (duals.kind == DualChoice::Kind::kSample) prepared.dual_seed = static_cast<std::int64_t>(duals.seed);
+  if (prepared.widths.width.rows() == 0)
+    prepared.widths = central_widths(polytope.problem, centre_of(polytope));
+  if (polytope.unbounded)
+    BarrierSearch(packing, polytope, prepared, prepared.contacts, options).find_rays(prepared);
+  return prepared;
+}
+
+BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
+                                  const BarrierPreparation& prepared, const std::vector<int>& contacts,
+                                  const IntervalOptions& options) {
+  return BarrierSearch(packing, polytope, prepared, contacts, options).run();
+}
+
 BarrierRanges find_barrier_ranges(const Packing& packing, const ForcePolytope& polytope,
                                   const std::vector<int>& contacts, const CentralWidths& widths,
-                                  bool reactions, const IntervalOptions& options, const DualChoice& duals) {
-  return BarrierSearch(packing, polytope, contacts, widths, reactions, options, duals).run();
+                                  bool reactions, const IntervalOptions& options) {
+  const BarrierPreparation prepared =
+      prepare_barrier_ranges(packing, polytope, contacts, widths, reactions, options);
+  return find_barrier_ranges(packing, polytope, prepared, contacts, options);
 }
 
 barrier::ValueBounds value_bounds(const barrier::ValueBounds& least, double sign,

@@ -94,6 +94,17 @@ class IntervalSearch {
 
 }  // namespace
 
+IntervalOptions interval_options(double gap, int threads, const ProgressCallback& progress,
+                                 const char* stage) {
+  IntervalOptions options{gap, threads, {}};
+  if (progress) {
+    options.progress = [progress, stage](std::int64_t settled, std::int64_t total) {
+      return progress({stage, settled, total, {}});
+    };
+  }
+  return options;
+}
+
 void ValueInterval::meet(const ValueInterval& other) {
   const bool is_better = other.upper - other.lower < upper - lower;
   if (is_better || std::isnan(sensitivity)) sensitivity = other.sensitivity;

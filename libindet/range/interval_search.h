@@ -20,6 +20,10 @@ struct IntervalOptions {
   StageProgress progress;
 };
 
+/// Those of a stage of a longer run, which is told of it by its name.
+IntervalOptions interval_options(double gap, int threads, const ProgressCallback& progress,
+                                 const char* stage);
+
 /// What is known of a least value, in the unit of the problem.
 struct ValueInterval {
   double lower = -kInfinity, upper = kInfinity;  ///< rigorous; infinite where nothing is proven

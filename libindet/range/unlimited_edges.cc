@@ -12,7 +12,7 @@ namespace indet {
 namespace {
 
 /// Up to which an inverse is looked at as a whole; some seconds.
-constexpr std::size_t kMostEdges = 8000;
+constexpr std::size_t kMostUnlimitedEdges = 8000;
 
 /// What strengths of the exact problem are divided by in that of the polytope.
 double scale_of(const ForcePolytope& polytope, int k) {
@@ -41,7 +41,7 @@ UnlimitedEdges::UnlimitedEdges(const ForcePolytope& polytope)
   for (const auto& [edge, k] : unknown_of) edges.push_back(edge);
   if (edges.empty()) return;
   norm_ = kInfinity;
-  if (edges.size() > kMostEdges) return;
+  if (edges.size() > kMostUnlimitedEdges) return;
   span_.emplace(exact_, edges, pivot_preference(exact_, edges));
   if (!span_->has_basis() || !find_combinations(edges)) return;
   norm_ = span_->transposed_inverse_norm();

@@ -10,6 +10,7 @@
 
 #include "libindet/base/error.h"
 #include "libindet/polytope/central_polytope.h"
+#include "libindet/range/analysis_start.h"
 #include "libindet/range/analyze.h"
 #include "libindet/range/enclosure.h"
 #include "tests/support/body_variants.h"

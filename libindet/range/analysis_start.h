@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "libindet/packing/packing.h"
+#include "libindet/polytope/force_polytope.h"
+#include "libindet/range/analyze_options.h"
+#include "libindet/range/method.h"
+#include "libindet/range/state_choice.h"
+
+namespace indet {
+
+/// The method for a packing with this number of contacts, and why: kBarrier where it is the faster one for
+/// values, or for values and canonical states, else kLp (docs/decisions/barrier-method.md).
+struct MethodChoice {
+  Method method = Method::kLp;
+  std::string reason;
+};
+MethodChoice choose_method(int contacts, const StateChoice& states);
+
+/// What an analysis has decided and found before it looks for values.
+struct AnalysisStart {
+  StateChoice kept;  ///< with its limit, and as the method has states
+  MethodChoice choice;
+  ForcePolytope polytope;  ///< in the form that the method works on
+};
+
+/// Throws InputError if the choice of states does not go with the method; LibraryError.
+AnalysisStart begin_analysis(const Packing& packing, const AnalyzeOptions& options);
+
+}  // namespace indet
