@@ -73,8 +73,12 @@ void add_settings(const toml::table& table, const CLI::App& command, const std::
     if (!runs || option->count() > 0) continue;  // the command line or the environment comes first
     settings.places["--" + name] = place;
     if (node.is_array()) {
-      settings.arguments.push_back("--" + name);
-      settings.arguments.insert(settings.arguments.end(), values.begin(), values.end());
+      // A value that looks like an option is one only if it stands alone.
+      const bool looks_like_options = std::any_of(
+          values.begin(), values.end(), [](const std::string& value) { return value.starts_with("--"); });
+      if (!looks_like_options) settings.arguments.push_back("--" + name);
+      for (const std::string& value : values)
+        settings.arguments.push_back(looks_like_options ? fmt::format("--{}={}", name, value) : value);
     } else {
       settings.arguments.push_back(fmt::format("--{}={}", name, values.front()));
     }
@@ -167,7 +171,13 @@ void parse_with_configuration(CLI::App& root, const std::vector<std::string>& ar
       throw InputError(fmt::format("{}:{}: '{}' is not a subcommand{}", file, node.source().begin.line,
                                    excerpt(name), suggestion(name, names)));
     }
-    add_settings(*node.as_table(), *commands.front(), file, commands.front()->parsed(), settings);
+    CLI::App* command = commands.front();
+    for (CLI::App* running : root.get_subcommands()) {  // what is submitted has the options of its own table
+      const auto submitted =
+          running->get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
+      if (!submitted.empty()) command = submitted.front();
+    }
+    add_settings(*node.as_table(), *command, file, command->parsed(), settings);
   }
   std::vector<std::string> all = arguments;
   all.insert(all.end(), settings.arguments.begin(), settings.arguments.end());

@@ -52,8 +52,12 @@ std::vector<Command> add_commands(CLI::App& root) {
       add_submit(root),   add_status(root),     add_merge(root),      add_report(root)};
   for (const Command& command : commands) {
     command.options->fallthrough();  // global options may follow the subcommand
-    name_environment_variables(*command.options);
-    require_numbers(*command.options);
+    std::vector<CLI::App*> levels = command.options->get_subcommands([](CLI::App*) { return true; });
+    levels.push_back(command.options);
+    for (CLI::App* level : levels) {
+      name_environment_variables(*level);
+      require_numbers(*level);
+    }
   }
   return commands;
 }

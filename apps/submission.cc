@@ -49,12 +49,11 @@ while [ -n "$signalled" ]; do signalled=; wait "$program"; status=$?; done
 # Once more, unless this start got nowhere: another one would not, either.
 if [ "$status" = 143 ] || [ "$status" = 6 ]; then
   record=$(ls -t {records}/"$(uname -n | tr . -)-$program"-*.json 2>/dev/null | head -n 1)
-  state=$(squeue -h -j "$SLURM_JOB_ID" -o %T)  # else cancelled, or put back by Slurm itself
+  state=$(squeue -h -j "$SLURM_JOB_ID" -o %T)  # RUNNING, unless it is cancelled, or Slurm itself puts it back
   if [ "$state" = RUNNING ] && grep -qs '"got_further": true' "$record"; then
     echo "indet: back into the queue"
     scontrol requeue "$SLURM_JOB_ID" && exit 0
   fi
-  echo "indet: ended with status $status; what is left is left to the job that collects" >&2
 fi
 )",
       fmt::arg("directory", shell_quoted(s.directory.string())), fmt::arg("warning", kWarning),

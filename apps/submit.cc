@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/batch/shard.h"
+#include "apps/batch/work_status.h"
 #include "apps/command.h"
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble_arguments.h"
@@ -123,24 +123,27 @@ std::string submit(const std::string& options, const fs::path& script) {
   return job;
 }
 
-std::vector<std::string> start(const Scripts& scripts, const SubmitCommand& o) {
+std::vector<std::string> start(const Scripts& scripts, const SubmitCommand& o, const Context& context) {
   if (o.engine == "parallel") {
-    if (std::system(scripts.how.c_str()) != 0) throw LibraryError(scripts.how + " failed");
+    const std::string output = context.json ? " >&2" : context.quiet ? " >/dev/null" : "";
+    if (std::system((scripts.how + output).c_str()) != 0) throw LibraryError(scripts.how + " failed");
     return {};
   }
   const std::string array = submit("", scripts.files[0].path);
   return {array, submit("--dependency=afterany:" + array, scripts.files[1].path)};
 }
 
-/// Seconds that the dearest share takes, by the estimates.
-double longest_share(const Plan& plan, int tasks) {
-  double longest = 0;
-  for (int number = 1; number <= tasks; ++number) {
-    double cost = 0;
-    for (const Member& member : members_of(plan, {number, tasks})) cost += member.cost;
-    longest = std::max(longest, cost);
-  }
-  return longest;
+/// Two that do the same work harm nobody, but the account.
+void warn_of_others(const fs::path& folder, const Plan& plan, const Context& context) {
+  const WorkStatus status = status_of(
+      folder, {.digest = plan.hash(), .items = {}, .results = members_folder(folder), .is_done = {}});
+  const auto alive =
+      std::count_if(status.tasks.begin(), status.tasks.end(), [](const auto& task) { return task.is_alive; });
+  if (alive == 0) return;
+  context.warn(
+      fmt::format("{} already at work in {} (indet status tells which); what they have in hand is "
+                  "computed twice",
+                  alive == 1 ? "1 process is" : fmt::format("{} processes are", alive), folder.string()));
 }
 
 int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context) {
@@ -182,7 +185,7 @@ int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context
   const std::vector<std::string> words = words_of(ensemble);
   submission.command.insert(submission.command.end(), words.begin(), words.end());
   if (!o.no_report) submission.afterwards = {submission.command.front(), "report", o.ensemble.folder};
-  const double longest = longest_share(plan, submission.tasks) / asked.processors;
+  const double longest = std::ranges::max(costs_of_shares(plan, submission.tasks)) / asked.processors;
   if (o.time.empty()) {
     submission.resources.seconds = std::max(kLeastTime, kTimeMargin * longest);
   } else {
@@ -195,10 +198,11 @@ int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context
   }
 
   const Scripts scripts = scripts_of(submission, o);
+  if (o.runs) warn_of_others(o.ensemble.folder, plan, context);
   fs::create_directories(submission.scripts() / "log");
   write_plan(o.ensemble.folder, plan);
   write_whole_files(scripts.files);
-  const std::vector<std::string> jobs = o.runs ? start(scripts, o) : std::vector<std::string>();
+  const std::vector<std::string> jobs = o.runs ? start(scripts, o, context) : std::vector<std::string>();
 
   if (context.json) {
     nlohmann::json files = nlohmann::json::array();

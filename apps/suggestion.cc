@@ -68,10 +68,13 @@ std::string complaint_about_unknown_word(const CLI::App& root) {
   });
   if (found == unknown.end()) return {};
   const std::string word = found->substr(0, found->find('='));
-  const std::string command = "indet " + parsed.front()->get_name();
+  std::string command = "indet";
   std::vector<std::string> names;
-  add_options(*parsed.front(), names);
   add_options(root, names);
+  for (std::vector<CLI::App*> level = parsed; !level.empty(); level = level.front()->get_subcommands()) {
+    command += " " + level.front()->get_name();
+    add_options(*level.front(), names);
+  }
   return fmt::format("{} has no option {}{}; see {} --help", command, word, suggestion(word, names), command);
 }
 

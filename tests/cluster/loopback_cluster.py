@@ -67,8 +67,8 @@ class Cluster:
         self.processes = {}  # by name: "controller", "node1", ...
 
     def start(self, name, command):
-        log = open(self.folder / f"log/{name}.out", "wb")
-        self.processes[name] = subprocess.Popen(command, env=self.environment, stdout=log, stderr=subprocess.STDOUT)
+        with open(self.folder / f"log/{name}.out", "wb") as log:
+            self.processes[name] = subprocess.Popen(command, env=self.environment, stdout=log, stderr=subprocess.STDOUT)
 
     def start_node(self, number):
         self.start(f"node{number}", ["slurmd", "-D", "-N", f"node{number}", "-f", self.environment["SLURM_CONF"]])
@@ -106,7 +106,7 @@ class Cluster:
     def kill_node(self, number):
         """As a node that loses its power: slurmd and all that it started end without a word."""
         daemon = self.processes[f"node{number}"]
-        for process in [*offspring_on(f"node{number}", self.folder), daemon.pid]:
+        for process in [daemon.pid, *offspring_on(f"node{number}", self.folder)]:  # the daemon first: it would tell
             with contextlib.suppress(ProcessLookupError):
                 os.kill(process, signal.SIGKILL)
         daemon.wait()
@@ -123,21 +123,22 @@ class Cluster:
 
 
 def offspring_on(node, folder):
-    """Process ids of the steps of a node: they carry its name and the configuration of this cluster."""
-    found = []
+    """Process ids of what a node runs: slurmstepd first, which would tell of the end of the others."""
+    marks = {f"SLURMD_NODENAME={node}".encode(), f"SLURM_CONF={folder}/slurm.conf".encode()}
+    steps, found = set(), []
     for entry in pathlib.Path("/proc").iterdir():
         if not entry.name.isdigit():
             continue
         try:
-            environment = (entry / "environ").read_bytes().split(b"\0")
-            command = (entry / "cmdline").read_bytes()
+            if not marks <= set((entry / "environ").read_bytes().split(b"\0")):
+                continue
+            parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
+            if pathlib.Path(f"/proc/{parent}/cmdline").read_bytes().startswith(b"slurmstepd"):
+                steps.add(parent)
         except OSError:
             continue
-        is_step = f"SLURMD_NODENAME={node}".encode() in environment and f"SLURM_CONF={folder}/slurm.conf".encode() in environment
-        if is_step or (command.startswith(b"slurmstepd") and str(folder).encode() in b"".join(environment) and
-                       node.encode() in command):
-            found.append(int(entry.name))
-    return found
+        found.append(int(entry.name))
+    return [*steps, *(process for process in found if process not in steps)]
 
 
 @contextlib.contextmanager

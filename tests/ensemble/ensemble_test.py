@@ -30,11 +30,6 @@ def table(path, name):
         return {column: values[()] for column, values in file[f"table/{name}"].items()}
 
 
-def content(path):
-    with h5py.File(path) as file:
-        return file.attrs["content_sha256"]
-
-
 class EnsembleTest(program.ProgramTest):
     @classmethod
     def setUpClass(cls):
@@ -128,13 +123,13 @@ class Commands(EnsembleTest):
         self.assertIn("md1-0001", missing)
         self.assertFalse((self.folder / "m").exists())
         self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
-        self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        self.assertEqual(program.content(self.folder / "m/ensemble.h5"), program.content(self.folder / "whole/ensemble.h5"))
         damaged = self.folder / "m/members/md1-0000.h5"
         damaged.unlink()  # it is also the file of a part
         damaged.write_bytes(b"damaged")
         self.run_indet("merge", "p0", "p1", "p2", "p3", "-o", "m")
         self.run_indet("verify", damaged)
-        self.assertEqual(content(self.folder / "m/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        self.assertEqual(program.content(self.folder / "m/ensemble.h5"), program.content(self.folder / "whole/ensemble.h5"))
         self.assertIn("is in two parts", self.run_indet("merge", "p0", "p1", "p2", "p3", "whole", "-o", "n", status=3).stderr)
         (self.folder / "p1/members/cd2-0000.h5").write_bytes(b"damaged")
         missing = self.run_indet("merge", "p1", "-o", "o", status=3).stderr
@@ -216,7 +211,7 @@ class Commands(EnsembleTest):
 
     def test_a_folder_of_an_earlier_version_is_refused_until_it_is_renamed(self):
         self.made_ensemble("e")
-        whole = content(self.folder / "e/ensemble.h5")
+        whole = program.content(self.folder / "e/ensemble.h5")
         (self.folder / "e/members").rename(self.folder / "e/units")
         plan = self.folder / "e/ensemble.toml"
         plan.write_text(plan.read_text().replace("[[member]]", "[[unit]]"))
@@ -227,7 +222,7 @@ class Commands(EnsembleTest):
         (self.folder / "e/units").rename(self.folder / "e/members")
         self.assertIn("writes it anew", self.run_indet("merge", "e", "-o", "m", status=3).stderr)
         self.assertEqual(json.loads(self.ensemble("e", "--json").stdout)["skipped"], 8)
-        self.assertEqual(content(self.folder / "e/ensemble.h5"), whole)
+        self.assertEqual(program.content(self.folder / "e/ensemble.h5"), whole)
 
     def test_a_dry_run_lists_members_and_writes_nothing(self):
         out = self.ensemble("e", "--dry-run").stdout
@@ -376,7 +371,7 @@ class Agreement(EnsembleTest):
         for member in "01":
             self.run_indet(*with_distances, "--members", member, "-o", member)
         self.run_indet("merge", "0", "1", "-o", "merged")
-        self.assertEqual(content(self.folder / "merged/ensemble.h5"), content(self.folder / "e/ensemble.h5"))
+        self.assertEqual(program.content(self.folder / "merged/ensemble.h5"), program.content(self.folder / "e/ensemble.h5"))
         again = json.loads(self.run_indet(*with_distances, "-o", "e", "--json").stdout)
         self.assertEqual((again["done"], again["skipped"]), (0, 2))
         runs = table(self.folder / "e/ensemble.h5", "runs")
@@ -421,7 +416,7 @@ class Agreement(EnsembleTest):
         for threads in ("1", "3"):
             self.run_indet("ensemble", "--seeds", "1", "--disks", "12", "--samples", "40", "-o", threads,
                            "--threads", threads)
-        self.assertEqual(content(self.folder / "1/ensemble.h5"), content(self.folder / "3/ensemble.h5"))
+        self.assertEqual(program.content(self.folder / "1/ensemble.h5"), program.content(self.folder / "3/ensemble.h5"))
         self.assertGreater(len(table(self.folder / "1/ensemble.h5", "sampled")["run"]), 0)
 
 
@@ -440,7 +435,7 @@ class Processes(EnsembleTest):
             process.wait()
         self.assertGreater(kills, 0)
         self.ensemble("killed")
-        self.assertEqual(content(self.folder / "killed/ensemble.h5"), content(self.folder / "whole/ensemble.h5"))
+        self.assertEqual(program.content(self.folder / "killed/ensemble.h5"), program.content(self.folder / "whole/ensemble.h5"))
         leftovers = [path for path in (self.folder / "killed").rglob("*.tmp")]
         self.assertEqual(leftovers, [])
 
@@ -467,9 +462,9 @@ class Processes(EnsembleTest):
             self.assertEqual((process.returncode, error), (0, ""))
             report = json.loads(output)
             self.assertEqual((report["done"] + report["skipped"], report["missing"]), (8, []))
-        self.assertEqual(content(self.folder / "e/ensemble.h5"), content(self.folder / "alone/ensemble.h5"))
+        self.assertEqual(program.content(self.folder / "e/ensemble.h5"), program.content(self.folder / "alone/ensemble.h5"))
         for path in (self.folder / "e/members").iterdir():
-            self.assertEqual(content(path), content(self.folder / "alone/members" / path.name))
+            self.assertEqual(program.content(path), program.content(self.folder / "alone/members" / path.name))
         kept = [path for path in (self.folder / "e").rglob("*") if "tasks" not in path.parts]
         self.assertEqual(len(kept), 11)  # two files, the folder, and the members
 

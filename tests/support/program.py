@@ -32,6 +32,12 @@ def run(command, folder, environment=None):
                           env=environment)
 
 
+def content(path):
+    """The digest of what a file says, whenever and wherever it was computed."""
+    with h5py.File(path) as file:
+        return file.attrs["content_sha256"]
+
+
 def wait_until_under_way(process, number, seconds):
     """Until the program catches the signal and has worked for `seconds` of processor time since then."""
     folder = pathlib.Path(f"/proc/{process.pid}")

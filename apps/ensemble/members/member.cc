@@ -57,13 +57,15 @@ sim::Simulation run_protocol(const EnsembleConfig& config, const sim::Scene& sce
 void simulate_member(const EnsembleConfig& config, const Member& member, const std::optional<Packing>& first,
                      const MemberCheckpoint& checkpoint, const ProgressCallback& progress,
                      MemberResult& result) {
-  const Stopwatch watch;
+  Stopwatch watch;
   const sim::Scene scene = scene_of(config, member);
   sim::World world = sim::build(scene);
   if (starts_from_cd1(member.protocol)) {
     const Packing start =
         first ? *first
               : run_protocol(config, scene, world, sim::Protocol::kCd1, {.progress = progress}, {}).packing;
+    if (!first) result.seconds["simulate_start"] = watch.seconds();
+    watch = {};
     world = sim::world_of(start, scene.friction);
     world.bring_to_rest();
   }
