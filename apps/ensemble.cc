@@ -18,6 +18,7 @@
 #include "apps/ensemble_arguments.h"
 #include "apps/ensemble_output.h"
 #include "apps/interruption.h"
+#include "apps/logged_run.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/say.h"
@@ -145,31 +146,12 @@ RunOptions run_options(const EnsembleCommand& o, TaskLog& log, const Context& co
   return options;
 }
 
-/// Computes what is selected; notes in FOLDER/tasks what becomes of it.
 BatchSummary compute(const EnsembleCommand& o, const EnsembleConfig& config, const Plan& plan,
                      const Selection& selection, const Context& context) {
   const std::filesystem::path folder = o.arguments.folder;
-  TaskLog log(folder,
-              {.work = plan.hash(),
-               .shard = selection.name,
-               .job = scheduler_job(),
-               .threads = context.thread_count()},
-              [&context](const std::string& text) { context.warn(text); });
-  set_last_act([&log] { log.end("stopped"); });
-  try {
-    const BatchSummary summary =
-        compute_members(config, plan, selection.members, folder, run_options(o, log, context));
-    set_last_act({});
-    log.end(summary.is_interrupted      ? "stopped"
-            : summary.out_of_time > 0   ? "out of time"
-            : !summary.failures.empty() ? "failed"
-                                        : "done");
-    return summary;
-  } catch (...) {
-    set_last_act({});
-    log.end("failed");
-    throw;
-  }
+  return run_with_log(folder, {.work = plan.hash(), .shard = selection.name}, context, [&](TaskLog& log) {
+    return compute_members(config, plan, selection.members, folder, run_options(o, log, context));
+  });
 }
 
 int run(const EnsembleCommand& o, const Context& context) {

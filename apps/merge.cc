@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/analysis_parts/folder.h"
+#include "apps/analyze_in_parts.h"
 #include "apps/command.h"
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
@@ -25,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct MergeCommand {
   std::vector<std::string> parts;
-  std::string folder;
+  std::string output;
   bool allow_missing = false;
   bool overwrite = false;
 };
@@ -33,6 +35,12 @@ struct MergeCommand {
 int run(const MergeCommand& o, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<fs::path> parts(o.parts.begin(), o.parts.end());
+  if (has_analysis_plan(parts.front())) {
+    if (o.allow_missing)
+      throw UsageError(
+          "--allow-missing has no effect on an analysis, whose ranges are those of all contacts");
+    return merge_analysis(parts, o.output, o.overwrite, context);
+  }
   const Plan plan = read_plan(parts.front());
   for (const fs::path& part : parts) {
     if (read_plan(part).hash() != plan.hash()) {
@@ -40,7 +48,7 @@ int run(const MergeCommand& o, const Context& context) {
           fmt::format("{} and {} are parts of different ensembles", parts.front().string(), part.string()));
     }
   }
-  const fs::path folder = o.folder;
+  const fs::path folder = o.output;
   claim_folder(folder, plan.members, replacement_rule({}, o.overwrite, context));
   // What an earlier merge brought there is the same file under two names.
   std::vector<fs::path> folders = parts;
@@ -87,10 +95,16 @@ int run(const MergeCommand& o, const Context& context) {
 
 Command add_merge(CLI::App& root) {
   const auto o = std::make_shared<MergeCommand>();
-  CLI::App* command =
-      root.add_subcommand("merge", "Join the parts of an ensemble that indet ensemble --members computed");
-  command->add_option("parts", o->parts, "Folders of the parts")->required()->check(CLI::ExistingDirectory);
-  command->add_option("-o,--out", o->folder, "Folder to write")->required();
+  CLI::App* command = root.add_subcommand(
+      "merge", "Join the parts of an ensemble that indet ensemble --members computed, or of an analysis");
+  command
+      ->add_option("parts", o->parts,
+                   "Folders of the parts, that indet ensemble or indet analyze --out wrote")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("-o,--out", o->output, "Folder to write for an ensemble, file R.ranges.h5 for an analysis")
+      ->required();
   command->add_flag("--allow-missing", o->allow_missing,
                     "Join the parts even if some packings are in none of them");
   add_overwrite_option(*command, o->overwrite);

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "apps/analysis_parts/chunk_file.h"
+#include "apps/analysis_parts/folder.h"
 #include "apps/ensemble/members/folder.h"
 #include "apps/ensemble/members/member_file.h"
 
@@ -40,8 +42,30 @@ SharedWork ensemble_in(const fs::path& folder) {
   return work;
 }
 
+SharedWork analysis_in(const fs::path& folder) {
+  const auto plan = std::make_shared<const AnalysisPlan>(read_analysis_plan(folder));
+  SharedWork work{.folder = folder,
+                  .kind = "analysis",
+                  .item = "part",
+                  .items = "parts",
+                  .expected = {},
+                  .result = joined_path(folder),
+                  .collector = "the same indet analyze command without --shard"};
+  work.expected.digest = plan->hash();
+  work.expected.results = chunks_folder(folder);
+  for (const Chunk& chunk : plan->chunks) work.expected.items.push_back({chunk.name, chunk.cost});
+  work.expected.is_done = [plan, folder](std::size_t item) {
+    return chunk_is_done(chunk_path(folder, plan->chunks[item]), *plan);
+  };
+  work.is_collected =
+      is_newer(work.result, chunks_folder(folder)) && is_newer(work.result, folder / "analysis.toml");
+  return work;
+}
+
 }  // namespace
 
-SharedWork shared_work_of(const fs::path& folder) { return ensemble_in(folder); }
+SharedWork shared_work_of(const fs::path& folder) {
+  return has_analysis_plan(folder) ? analysis_in(folder) : ensemble_in(folder);
+}
 
 }  // namespace indet::app

@@ -181,7 +181,7 @@ Command add_status(CLI::App& root) {
   const auto o = std::make_shared<StatusCommand>();
   CLI::App* command =
       root.add_subcommand("status", "Tell how the work stands that processes do together in a folder");
-  command->add_option("folder", o->folder, "Folder that indet ensemble writes")
+  command->add_option("folder", o->folder, "Folder that indet ensemble or indet analyze --out writes")
       ->required()
       ->check(CLI::ExistingDirectory);
   command

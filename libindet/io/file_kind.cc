@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kHdf5Begin = "\x89HDF\r\n\x1a\n";
 constexpr std::string_view kPlanBegin = "# The packings of this ensemble. Written by indet;";
+constexpr std::string_view kAnalysisPlanBegin = "# The parts of this analysis. Written by indet;";
 constexpr std::string_view kReportTitle = "<title>Force indeterminacy: report</title>";
 
 /// Both ends of a file; that is enough to recognise it.
@@ -69,6 +70,8 @@ const char* describe(FileKind kind) {
       return "the tables of an ensemble";
     case FileKind::kPlan:
       return "the plan of an ensemble";
+    case FileKind::kAnalysisPlan:
+      return "the plan of an analysis in parts";
     case FileKind::kPicture:
       return "a picture";
     case FileKind::kContactTable:
@@ -107,6 +110,7 @@ std::optional<FileKind> recognise(const fs::path& path) {
   if (is_particle_file(head)) return FileKind::kParticles;
   if (is_bond_file(head)) return FileKind::kBonds;
   if (head.starts_with(kPlanBegin)) return FileKind::kPlan;
+  if (head.starts_with(kAnalysisPlanBegin)) return FileKind::kAnalysisPlan;
   if (head.starts_with("<!DOCTYPE html>") && head.find(kReportTitle) != std::string::npos)
     return FileKind::kReport;
   return {};

@@ -18,6 +18,7 @@ enum class FileKind {
   kMember,        ///< ensemble: one packing with all that is known of it
   kEnsemble,      ///< ensemble, merge: the tables of all members
   kPlan,          ///< ensemble, merge: ensemble.toml
+  kAnalysisPlan,  ///< analyze --out: analysis.toml
   kPicture,       ///< export, trajectory: .svg, .pdf, .png
   kContactTable,  ///< export: one .csv
   kCsvScene,      ///< export: a file of the folder of a scene

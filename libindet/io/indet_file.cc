@@ -73,6 +73,7 @@ void write_provenance_part(Hdf5File& file, const Provenance& provenance) {
                   fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))));
   file.set_attribute("/provenance", "argv", provenance.arguments);
   set("config", provenance.config);
+  if (!provenance.part_of.empty()) set("part_of", provenance.part_of);
   file.make_group("/provenance/libraries");
   std::map<std::string, std::string> libraries = provenance.libraries;
   libraries["HDF5"] = hdf5_version();

@@ -24,6 +24,7 @@ struct Provenance {
   std::string config;                            ///< The resolved configuration of the run, TOML.
   std::map<std::string, std::string> libraries;  ///< Version by name, of the libraries that took part.
   std::map<std::string, double> seconds;         ///< By stage.
+  std::string part_of = {};  ///< Digest of the analysis of whose contacts the file has some; empty: none.
 };
 
 /// Opens a file and makes sure that indet wrote it, completely, in a version of the format that can be read.

@@ -58,13 +58,18 @@ StateChoice states_by_barrier(StateChoice kept, bool is_asked_for) {
 
 }  // namespace
 
+StateChoice kept_states(const AnalyzeOptions& options, int contacts) {
+  const StateChoice kept = limited(options.states, contacts);
+  const Method method = options.method ? *options.method : choose_method(contacts, kept).method;
+  return method == Method::kBarrier ? states_by_barrier(kept, options.method.has_value()) : kept;
+}
+
 AnalysisStart begin_analysis(const Packing& packing, const AnalyzeOptions& options) {
+  const int contacts = packing.contact_count();
   AnalysisStart start;
-  start.kept = limited(options.states, packing.contact_count());
-  start.choice =
-      options.method ? MethodChoice{*options.method, ""} : choose_method(packing.contact_count(), start.kept);
-  if (start.choice.method == Method::kBarrier)
-    start.kept = states_by_barrier(start.kept, options.method.has_value());
+  start.kept = kept_states(options, contacts);
+  start.choice = options.method ? MethodChoice{*options.method, ""}
+                                : choose_method(contacts, limited(options.states, contacts));
   if (options.estimate) start.choice.method = Method::kBarrier;
   const bool wants_states = start.kept.kind != StateChoice::Kind::kNone;
   start.polytope = find_polytope(packing, options, wants_states, start.choice);

@@ -18,14 +18,18 @@ struct MethodChoice {
 };
 MethodChoice choose_method(int contacts, const StateChoice& states);
 
+/// The extremal states that an analysis keeps, where its method has them: the choice with its limit, and as
+/// the method takes it. Throws InputError if they do not go together.
+StateChoice kept_states(const AnalyzeOptions& options, int contacts);
+
 /// What an analysis has decided and found before it looks for values.
 struct AnalysisStart {
-  StateChoice kept;  ///< with its limit, and as the method has states
+  StateChoice kept;  ///< kept_states
   MethodChoice choice;
   ForcePolytope polytope;  ///< in the form that the method works on
 };
 
-/// Throws InputError if the choice of states does not go with the method; LibraryError.
+/// Throws like kept_states; LibraryError.
 AnalysisStart begin_analysis(const Packing& packing, const AnalyzeOptions& options);
 
 }  // namespace indet

@@ -9,8 +9,9 @@ namespace indet {
 namespace {
 
 constexpr const char* kNeedsBarrier =
-    "linear programs build on what others have found, so that the last digits and states of a part would "
-    "depend on what else is in it; --method barrier deals contacts";
+    "linear programs build on what others have found, so that a part would depend on what else is in it; "
+    "with "
+    "--method barrier it does not";
 
 AnalysisStart begin(const Packing& packing, const AnalyzeOptions& options) {
   if (const auto obstacle = obstacle_to_dealing(options, packing.contact_count()))
@@ -36,7 +37,7 @@ std::optional<std::string> obstacle_to_dealing(const AnalyzeOptions& options, in
   }
   const MethodChoice choice = choose_method(contacts, limited(options.states, contacts));
   if (choice.method == Method::kBarrier) return {};
-  return fmt::format("with {} here ranges are found by linear programs ({}), and {}",
+  return fmt::format("ranges of {} are found by linear programs here ({}), and {}",
                      counted(contacts, "contact"), choice.reason, kNeedsBarrier);
 }
 

@@ -161,7 +161,7 @@ TEST(DealtAnalysis, SaysWhatCannotBeDealt) {
   const auto dealing = [](const Packing& packing, const AnalyzeOptions& options) {
     return [&packing, options] { DealtAnalysis(packing, options); };
   };
-  EXPECT_THAT(dealing(pile, {}), ThrowsMessage<InputError>(HasSubstr("--method barrier deals contacts")));
+  EXPECT_THAT(dealing(pile, {}), ThrowsMessage<InputError>(HasSubstr("with --method barrier it does not")));
   AnalyzeOptions options = by_barrier();
   options.estimate = EstimateOptions();
   EXPECT_THAT(dealing(pile, options), ThrowsMessage<InputError>(HasSubstr("calibration")));

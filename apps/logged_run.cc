@@ -1,0 +1,32 @@
+#include "apps/logged_run.h"
+
+#include <string>
+#include <utility>
+
+#include "apps/interruption.h"
+#include "apps/scheduler.h"
+
+namespace indet::app {
+
+BatchSummary run_with_log(const std::filesystem::path& folder, TaskRecord record, const Context& context,
+                          const std::function<BatchSummary(TaskLog&)>& work) {
+  record.job = scheduler_job();
+  record.threads = context.thread_count();
+  TaskLog log(folder, std::move(record), [&context](const std::string& text) { context.warn(text); });
+  set_last_act([&log] { log.end("stopped"); });
+  try {
+    BatchSummary summary = work(log);
+    set_last_act({});
+    log.end(summary.is_interrupted      ? "stopped"
+            : summary.out_of_time > 0   ? "out of time"
+            : !summary.failures.empty() ? "failed"
+                                        : "done");
+    return summary;
+  } catch (...) {
+    set_last_act({});
+    log.end("failed");
+    throw;
+  }
+}
+
+}  // namespace indet::app
