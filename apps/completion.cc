@@ -11,7 +11,7 @@ namespace indet::app {
 namespace {
 
 /// The values that options accept, as shell cases: "--format) words='csv svg' ;;".
-std::string values_of(const CLI::App& command) {
+std::string values_of(const CLI::App& command, const std::string& name_of_command) {
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
     const std::string type = option->get_type_name();  // TEXT:{csv,svg}
@@ -21,10 +21,10 @@ std::string values_of(const CLI::App& command) {
     std::replace(words.begin(), words.end(), ',', ' ');
     for (const std::string& name : option->get_lnames())
       text += fmt::format("    {}/--{}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n",
-                          command.get_name(), name, words);
+                          name_of_command, name, words);
     if (option->get_lnames().empty())
       text += fmt::format("    {0}/{0}) COMPREPLY=($(compgen -W '{1}' -- \"$current\")); return ;;\n",
-                          command.get_name(), words);
+                          name_of_command, words);
   }
   return text;
 }
@@ -44,9 +44,14 @@ std::string bash_script(const CLI::App& root) {
   std::string values;
   for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; })) {
     subcommands += command->get_name() + " ";
-    cases += fmt::format("      {0}) command={0} words='{1}{2}' ;;\n", command->get_name(),
-                         options_of(*command), options_of(root));
-    values += values_of(*command);
+    std::string words = options_of(*command);
+    values += values_of(*command, command->get_name());
+    for (const CLI::App* nested : command->get_subcommands([](const CLI::App*) { return true; })) {
+      words += nested->get_name() + " " + options_of(*nested);
+      values += values_of(*nested, command->get_name());
+    }
+    cases += fmt::format("      {0}) command={0} words='{1}{2}' ;;\n", command->get_name(), words,
+                         options_of(root));
   }
   return fmt::format(
       "# bash completion for indet\n"

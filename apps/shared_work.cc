@@ -10,12 +10,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the file is there and was written after all others in `folder`.
-bool is_newer(const fs::path& file, const fs::path& folder) {
+/// Whether the file is there and not older than another one, or than the last name that appeared in a folder.
+bool is_newer(const fs::path& file, const fs::path& other) {
   std::error_code error;
   const auto written = fs::last_write_time(file, error);
   if (error) return false;
-  const auto changed = fs::last_write_time(folder, error);  // as a name appeared
+  const auto changed = fs::last_write_time(other, error);
   return !error && written >= changed;
 }
 
@@ -35,7 +35,8 @@ SharedWork ensemble_in(const fs::path& folder) {
     const Member& member = plan->members[item];
     return member_is_done(member_path(folder, member.name), member);
   };
-  work.is_collected = is_newer(work.result, members_folder(folder));
+  work.is_collected =
+      is_newer(work.result, members_folder(folder)) && is_newer(work.result, folder / "ensemble.toml");
   return work;
 }
 

@@ -138,8 +138,7 @@ void print(const SharedWork& work, const WorkStatus& status, const Workers& work
   std::string stages;
   for (const auto& [stage, seconds] : status.seconds)
     stages += fmt::format("{}{} {:.1f} s", stages.empty() ? "" : ", ", stage, seconds);
-  if (!stages.empty())
-    say("by stage, of {}: {}\n", counted(status.starts, "process", "processes"), stages);
+  if (!stages.empty()) say("by stage, of {}: {}\n", counted(status.starts, "process", "processes"), stages);
   if (status.count(Item::kDone) < std::ssize(status.items)) {
     say("left: about {} of work, {} on {} of {}\n", duration(status.left),
         duration(status.seconds_on(workers.tasks, workers.threads)), counted(workers.tasks, "task"),

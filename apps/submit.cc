@@ -133,17 +133,6 @@ std::vector<std::string> start(const Scripts& scripts, const SubmitCommand& o) {
   return {array, submit("--dependency=afterany:" + array, scripts.files[1].path)};
 }
 
-/// Seconds that the dearest share takes, by the estimates.
-double longest_share(const Plan& plan, int tasks) {
-  double longest = 0;
-  for (int number = 1; number <= tasks; ++number) {
-    double cost = 0;
-    for (const Member& member : members_of(plan, {number, tasks})) cost += member.cost;
-    longest = std::max(longest, cost);
-  }
-  return longest;
-}
-
 int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context) {
   const TaskResources& asked = o.resources;
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"--partition", asked.partition},
@@ -183,7 +172,7 @@ int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context
   const std::vector<std::string> words = words_of(ensemble);
   submission.command.insert(submission.command.end(), words.begin(), words.end());
   if (!o.no_report) submission.afterwards = {submission.command.front(), "report", o.ensemble.folder};
-  const double longest = longest_share(plan, submission.tasks) / asked.processors;
+  const double longest = std::ranges::max(costs_of_shares(plan, submission.tasks)) / asked.processors;
   if (o.time.empty()) {
     submission.resources.seconds = std::max(kLeastTime, kTimeMargin * longest);
   } else {

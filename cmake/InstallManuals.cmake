@@ -8,7 +8,7 @@ if(NOT help2man)
   message(STATUS "No man pages: help2man is missing")
   return()
 endif()
-foreach(subcommand IN ITEMS "" simulate import analyze limit compare sample ensemble merge report inspect verify export trajectory
+foreach(subcommand IN ITEMS "" simulate import analyze limit compare sample ensemble submit status merge report inspect verify export trajectory
     completion)
   string(REGEX REPLACE "-$" "" page indet-${subcommand})
   execute_process(COMMAND ${help2man} --no-info --no-discard-stderr --version-string=${version} --name=${description}

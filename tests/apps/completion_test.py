@@ -48,7 +48,10 @@ class Completion(program.ProgramTest):
     def test_every_option_of_every_subcommand(self):
         shared = options_of(self.run_indet("--help").stdout)
         for name in subcommands(self.run_indet("--help").stdout):
-            own = options_of(self.run_indet(name, "--help").stdout)
+            shown = self.run_indet(name, "--help").stdout
+            own = options_of(shown)
+            for nested in subcommands(shown):
+                own |= options_of(self.run_indet(name, nested, "--help").stdout)
             self.assertEqual(self.complete("indet", name, "--"), own | shared, name)
 
     def test_options_after_global_ones(self):
@@ -67,6 +70,8 @@ class Completion(program.ProgramTest):
             self.assertEqual(self.complete("indet", command, "--start", ""), {"common", "minimum"})
         self.assertEqual(self.complete("indet", "export", "p.h5", "--format", "s"), {"svg"})
         self.assertEqual(self.complete("indet", "completion", ""), {"bash"})
+        self.assertEqual(self.complete("indet", "submit", "--engine", ""), {"slurm", "parallel"})
+        self.assertEqual(self.complete("indet", "submit", "ensemble", "--preset", "s"), {"stiff"})
 
     def test_bash_completes_indet_with_it(self):
         line = f"source <({shlex.quote(program.INDET)} completion bash); complete -p indet"

@@ -193,6 +193,15 @@ std::vector<Member> members_of(const Plan& plan, const Shard& shard) {
   return members;
 }
 
+std::vector<double> costs_of_shares(const Plan& plan, int count) {
+  const Groups groups = groups_of(plan);
+  const std::vector<int> share_of = deal(groups.costs, count);
+  std::vector<double> costs(static_cast<std::size_t>(count), 0);
+  for (std::size_t group = 0; group < share_of.size(); ++group)
+    costs[static_cast<std::size_t>(share_of[group] - 1)] += groups.costs[group];
+  return costs;
+}
+
 int group_count(const Plan& plan) { return static_cast<int>(groups_of(plan).costs.size()); }
 
 sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {

@@ -67,6 +67,8 @@ Plan make_plan(const EnsembleConfig& config);
 /// The members of one share of the work. Those of one seed stay together, so that a protocol finds what it
 /// starts from; each share costs about the same.
 std::vector<Member> members_of(const Plan& plan, const Shard& shard);
+/// Estimated seconds of each of `count` shares.
+std::vector<double> costs_of_shares(const Plan& plan, int count);
 /// How many groups of members can be dealt: seeds, and packings of files.
 int group_count(const Plan& plan);
 
