@@ -23,6 +23,7 @@
 #include "apps/submission.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet::app {
@@ -199,7 +200,7 @@ int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context
 
   const Scripts scripts = scripts_of(submission, o);
   if (o.runs) warn_of_others(o.ensemble.folder, plan, context);
-  fs::create_directories(submission.scripts() / "log");
+  make_folder(submission.scripts() / "log");
   write_plan(o.ensemble.folder, plan);
   write_whole_files(scripts.files);
   const std::vector<std::string> jobs = o.runs ? start(scripts, o, context) : std::vector<std::string>();
