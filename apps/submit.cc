@@ -36,6 +36,8 @@ constexpr double kSecondsPerTask = 1800;
 /// Estimates are of one machine, and packings differ.
 constexpr double kTimeMargin = 3;
 constexpr double kLeastTime = 600;
+/// A packing of 95 disks takes 0.015 s to be collected where files are local.
+constexpr double kSecondsToCollect = 0.1;
 /// Slurm's default (slurm.conf(5)); the largest index is one less.
 constexpr int kMaxArraySize = 1001;
 
@@ -197,6 +199,8 @@ int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context
                       excerpt(o.time)));
     submission.resources.seconds = *seconds;
   }
+
+  submission.seconds_to_collect = kLeastTime + kSecondsToCollect * static_cast<double>(plan.members.size());
 
   const Scripts scripts = scripts_of(submission, o);
   if (o.runs) warn_of_others(o.ensemble.folder, plan, context);
