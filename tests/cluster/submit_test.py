@@ -62,7 +62,7 @@ class Submit(ClusterTest):
     def test_the_result_is_that_of_one_machine(self):
         with loopback_cluster.cluster(4) as cluster:
             report = self.submit(cluster)
-            self.assertEqual((report["packings"], report["tasks"], len(report["jobs"])), (MEMBERS, 4, 2))
+            self.assertEqual((report["items"], report["tasks"], len(report["jobs"])), (MEMBERS, 4, 2))
             cluster.wait_for_jobs()
         computed = self.check()
         self.assertEqual(set(computed.values()), {1})
