@@ -82,6 +82,15 @@ class Submit(ClusterTest):
         self.check(interrupted=1)
 
 
+    def test_a_test_that_fails_leaves_nothing_running(self):
+        with self.assertRaisesRegex(RuntimeError, "fails"), loopback_cluster.cluster(1) as cluster:
+            cluster.run("sbatch", "--wrap", "sleep 1000", cwd=self.folder)
+            self.wait_for(cluster, lambda: any(state == "RUNNING" for _, state in cluster.jobs()), "it does not start")
+            raise RuntimeError("fails")
+        self.assertFalse(cluster.folder.exists())
+        cluster.wait_until(lambda: not cluster.running(), 5, "something runs on")
+
+
 class Signals(ClusterTest):
     def test_tasks_that_are_signalled_go_on_where_they_were(self):
         with loopback_cluster.cluster(4) as cluster:
