@@ -20,6 +20,7 @@
 #include "apps/say.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/range/dealt_analysis.h"
 
@@ -129,7 +130,7 @@ int analyze_in_parts(const AnalyzeArguments& arguments, const fs::path& folder, 
       open_chunks(plan, share_of_chunks, folder, [&](const std::string& text) { context.warn(text); });
   std::optional<DealtAnalysis> dealt;
   if (!open.empty()) dealt.emplace(packing, analysis);  // before anything is written, for it may refuse
-  fs::create_directories(chunks_folder(folder));
+  make_folder(chunks_folder(folder));
   write_analysis_plan(folder, plan);
 
   const std::string name = shard ? "shard " + shard->name() : "";

@@ -26,6 +26,7 @@
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
+#include "libindet/io/destination.h"
 #include "libindet/lp/glpk_problem.h"
 #include "libsim/memory_estimate.h"
 #include "libsim/time_estimate.h"
@@ -170,7 +171,7 @@ int run(const EnsembleCommand& o, const Context& context) {
   std::vector<std::filesystem::path> inputs(o.arguments.files.begin(), o.arguments.files.end());
   inputs.emplace_back(o.arguments.scene_file);
   claim_folder(folder, selection.members, replacement_rule(inputs, o.overwrite, context));
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   write_plan(folder, plan);
 
   const BatchSummary summary = compute(o, config, plan, selection, context);

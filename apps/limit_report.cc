@@ -121,7 +121,7 @@ void print_limit(const Packing& whole, const Limit& limit) {
   const Packing packing = without(whole, limit.left_out);
   if (limit.kind == LimitKind::kFriction) return print_friction(packing, limit);
   if (limit.kind == LimitKind::kTilt)
-    say("tilt: gravity turned counter-clockwise\n");
+    say("{}: gravity turned counter-clockwise\n", limit.name);
   else
     say("load {}: a multiple of it acts, too\n", limit.name);
   for (const DiskId disk : limit.left_out)

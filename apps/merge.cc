@@ -18,6 +18,7 @@
 #include "apps/output_files.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet::app {
@@ -70,7 +71,7 @@ int run(const MergeCommand& o, const Context& context) {
                                  missing.size(), plan.members.size(), missing.size() == 1 ? "is" : "are",
                                  list));
   }
-  fs::create_directories(members_folder(folder));
+  make_folder(members_folder(folder));
   remove_leftovers(folder);
   remove_leftovers(members_folder(folder));
   write_plan(folder, plan);

@@ -15,6 +15,7 @@
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/drawing/packing_picture.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/ranges_file.h"
 
 namespace indet::app {
@@ -78,7 +79,7 @@ int run(const ReportCommand& o, const Context& context) {
   const Replacement rule = replacement_rule({file.path()}, o.overwrite, context);
   rule.require(folder / "report.html", FileKind::kReport);
   rule.require_folder(folder / "figures", "comparison.csv");
-  fs::create_directories(folder / "figures");
+  make_folder(folder / "figures");
   const std::vector<Picture> pictures = draw_states(folder, contents.tables);
   write_report(folder, contents, pictures, about, context.progress());
   const std::string report = (folder / "report.html").string();

@@ -107,8 +107,10 @@ std::string array_script(const Submission& s) {
 }
 
 std::string finish_script(const Submission& s) {
+  Submission last = s;
+  if (s.resources.seconds > 0) last.resources.seconds = std::max(s.resources.seconds, s.seconds_to_collect);
   std::string text = "#!/bin/bash\n# After all tasks: computes what they left, and collects the results.\n" +
-                     options_of(s, job_name(s) + "-finish") + log_of(s, "%j.txt") + body(s);
+                     options_of(last, job_name(s) + "-finish") + log_of(s, "%j.txt") + body(s);
   if (!s.afterwards.empty()) {
     text +=
         fmt::format("case $status in 0 | 5) {} || exit ;; esac  # 5: something is uncertain, and says so\n",

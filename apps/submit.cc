@@ -13,16 +13,16 @@
 
 #include "apps/batch/work_status.h"
 #include "apps/command.h"
-#include "apps/ensemble/members/folder.h"
 #include "apps/ensemble_arguments.h"
-#include "apps/ensemble_output.h"
-#include "apps/numbers.h"
 #include "apps/output_files.h"
 #include "apps/say.h"
+#include "apps/shared_work.h"
 #include "apps/shell.h"
 #include "apps/submission.h"
+#include "apps/submitted_work.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet::app {
@@ -134,83 +134,83 @@ std::vector<std::string> start(const Scripts& scripts, const SubmitCommand& o, c
 }
 
 /// Two that do the same work harm nobody, but the account.
-void warn_of_others(const fs::path& folder, const Plan& plan, const Context& context) {
-  const WorkStatus status = status_of(
-      folder, {.digest = plan.hash(), .items = {}, .results = members_folder(folder), .is_done = {}});
+void warn_of_others(const SubmittedWork& work, const Context& context) {
+  const WorkStatus status = status_of(work.folder, shared_work_of(work.folder).expected);
   const auto alive =
       std::count_if(status.tasks.begin(), status.tasks.end(), [](const auto& task) { return task.is_alive; });
   if (alive == 0) return;
   context.warn(
       fmt::format("{} already at work in {} (indet status tells which); what they have in hand is "
                   "computed twice",
-                  alive == 1 ? "1 process is" : fmt::format("{} processes are", alive), folder.string()));
+                  alive == 1 ? "1 process is" : fmt::format("{} processes are", alive), work.folder));
 }
 
-int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context) {
+void check(const SubmitCommand& o) {
   const TaskResources& asked = o.resources;
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"--partition", asked.partition},
                                       {"--account", asked.account},
                                       {"--mem", asked.memory},
-                                      {"--time", o.time},
-                                      {"--out", o.ensemble.folder}})
+                                      {"--time", o.time}})
     require_one_line(option, value);
   for (const std::string& line : asked.lines) require_one_line("--line", line);
   if (o.jobs && o.engine != "parallel")
     throw UsageError("--jobs has no effect without --engine parallel, which runs so many tasks at a time");
+}
 
-  const Plan plan = make_plan(config_of(o.ensemble));
-  check_layout(o.ensemble.folder);
-  std::vector<fs::path> inputs(o.ensemble.files.begin(), o.ensemble.files.end());
-  inputs.emplace_back(o.ensemble.scene_file);
-  claim_folder(o.ensemble.folder, plan.members, replacement_rule(inputs, o.overwrite, context));
+int tasks_for(const SubmittedWork& work, const SubmitCommand& o) {
+  const int most = std::min(work.groups, o.engine == "slurm" ? largest_array() : work.groups);
+  if (!o.tasks) {
+    const double wanted = std::ceil(work.seconds / (kSecondsPerTask * o.resources.processors));
+    return static_cast<int>(std::clamp<double>(wanted, 1, most));
+  }
+  if (*o.tasks <= most) return *o.tasks;
+  throw UsageError(fmt::format(
+      "--tasks {}: {}", *o.tasks,
+      most == work.groups ? fmt::format("there are {} to deal", counted(work.groups, work.group, work.plural))
+                          : fmt::format("an array of this cluster has at most {}", most)));
+}
 
-  double total = 0;
-  for (const Member& member : plan.members) total += member.cost;
-  const int groups = group_count(plan);
-  const int most = std::min(groups, o.engine == "slurm" ? largest_array() : groups);
-  const double wanted = std::ceil(total / (kSecondsPerTask * asked.processors));
+double time_limit_for(double longest_share, const SubmitCommand& o) {
+  if (o.time.empty()) return std::max(kLeastTime, kTimeMargin * longest_share);
+  const auto seconds = seconds_from(o.time);
+  if (seconds && *seconds > 0) return *seconds;
+  throw UsageError(fmt::format(
+      "--time {}: expected MINUTES, HOURS:MINUTES:SECONDS or DAYS-HOURS:MINUTES:SECONDS", excerpt(o.time)));
+}
+
+/// `command`: the one below submit, with the options of what is submitted.
+int run(const SubmitCommand& o, const SubmittedWork& work, const CLI::App& command, const Context& context) {
+  require_one_line("--out", work.folder);
   Submission submission{.directory = fs::current_path(),
-                        .folder = o.ensemble.folder,
-                        .command = {fs::read_symlink("/proc/self/exe").string(), "ensemble"},
+                        .folder = work.folder,
+                        .command = {fs::read_symlink("/proc/self/exe").string(), work.subcommand},
                         .afterwards = {},
-                        .tasks = o.tasks ? *o.tasks : static_cast<int>(std::clamp<double>(wanted, 1, most)),
-                        .resources = asked};
-  if (submission.tasks > most) {
-    throw UsageError(fmt::format(
-        "--tasks {}: {}", submission.tasks,
-        most == groups
-            ? fmt::format("there are {} to deal", counted(groups, "seed or file", "seeds and files"))
-            : fmt::format("an array of this cluster has at most {}", most)));
-  }
-  const std::vector<std::string> words = words_of(ensemble);
+                        .tasks = tasks_for(work, o),
+                        .resources = o.resources,
+                        .seconds_to_collect = kLeastTime + work.seconds_to_collect};
+  const std::vector<std::string> words = words_of(command);
   submission.command.insert(submission.command.end(), words.begin(), words.end());
-  if (!o.no_report) submission.afterwards = {submission.command.front(), "report", o.ensemble.folder};
-  const double longest = std::ranges::max(costs_of_shares(plan, submission.tasks)) / asked.processors;
-  if (o.time.empty()) {
-    submission.resources.seconds = std::max(kLeastTime, kTimeMargin * longest);
-  } else {
-    const auto seconds = seconds_from(o.time);
-    if (!seconds || *seconds <= 0)
-      throw UsageError(
-          fmt::format("--time {}: expected MINUTES, HOURS:MINUTES:SECONDS or DAYS-HOURS:MINUTES:SECONDS",
-                      excerpt(o.time)));
-    submission.resources.seconds = *seconds;
+  if (!o.no_report && !work.afterwards.empty()) {
+    submission.afterwards = work.afterwards;
+    submission.afterwards.insert(submission.afterwards.begin(), submission.command.front());
   }
+  const double longest = std::ranges::max(work.costs_of_shares(submission.tasks)) / o.resources.processors;
+  submission.resources.seconds = time_limit_for(longest, o);
 
   const Scripts scripts = scripts_of(submission, o);
-  if (o.runs) warn_of_others(o.ensemble.folder, plan, context);
-  fs::create_directories(submission.scripts() / "log");
-  write_plan(o.ensemble.folder, plan);
+  make_folder(submission.scripts() / "log");
+  work.write_plan();
   write_whole_files(scripts.files);
+  if (o.runs) warn_of_others(work, context);
   const std::vector<std::string> jobs = o.runs ? start(scripts, o, context) : std::vector<std::string>();
 
   if (context.json) {
     nlohmann::json files = nlohmann::json::array();
     for (const FileText& file : scripts.files) files.push_back(file.path.string());
-    std::cout << nlohmann::json{{"folder", o.ensemble.folder},
-                                {"packings", plan.members.size()},
+    std::cout << nlohmann::json{{"folder", work.folder},
+                                {"items", work.items},
                                 {"tasks", submission.tasks},
-                                {"seconds", total},
+                                {"seconds", work.seconds},
                                 {"longest_share", longest},
                                 {"time_limit", submission.resources.seconds},
                                 {"scripts", files},
@@ -222,14 +222,14 @@ int run(const SubmitCommand& o, const CLI::App& ensemble, const Context& context
     if (!o.runs) {
       for (const FileText& file : scripts.files) say("# {}\n{}\n", file.path.string(), file.bytes);
     }
-    say("{}, about {:.0f} s of work, in {} of at most {:.0f} s\n",
-        counted(std::ssize(plan.members), "packing"), total, counted(submission.tasks, "task"), longest);
+    say("{}, about {:.0f} s of work, in {} of at most {:.0f} s\n", counted(work.items, work.item),
+        work.seconds, counted(submission.tasks, "task"), longest);
     if (!o.runs) {
       say("nothing was started; to start it: {}\n", scripts.how);
     } else if (!jobs.empty()) {
       say("submitted as jobs {} (the tasks) and {} (which collects)\n", jobs[0], jobs[1]);
     }
-    say("to look at it: indet status {}\n", shell_quoted(o.ensemble.folder));
+    say("to look at it: indet status {}\n", shell_quoted(work.folder));
   }
   return kDone;
 }
@@ -271,7 +271,10 @@ Command add_submit(CLI::App& root) {
       "ensemble", "The packings of an ensemble, with the options of indet ensemble; seeds are dealt");
   add_ensemble_options(*ensemble, o->ensemble);
   ensemble->fallthrough();
-  return {command, [o, ensemble](const Context& context) { return run(*o, *ensemble, context); }};
+  return {command, [o, ensemble](const Context& context) {
+            check(*o);
+            return run(*o, submitted_ensemble(o->ensemble, o->overwrite, context), *ensemble, context);
+          }};
 }
 
 }  // namespace indet::app

@@ -4,11 +4,10 @@
 
 #include <cmath>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
-#include "libindet/base/error.h"
 #include "libindet/io/contact_columns.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/file_ids.h"
 #include "libindet/io/scene_file.h"
 #include "libindet/io/whole_file.h"
@@ -121,12 +120,7 @@ std::string contacts_text(const Packing& packing, const FileIds& ids,
 
 void write_csv_scene(const std::filesystem::path& folder, const Packing& packing,
                      const Eigen::Ref<const Eigen::VectorXd>& forces) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw InputError(fmt::format("{}: the folder cannot be made ({})", folder.string(),
-                                 error ? error.message() : "there is a file of this name"));
-  }
+  make_folder(folder);
   const FileIds ids(packing);
   write_whole_files({{folder / "disks.csv", disks_text(packing, ids)},
                      {folder / "walls.csv", walls_text(packing, ids)},

@@ -123,10 +123,7 @@ WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
   const std::filesystem::path temporary = temporary_name(target_);
   const std::scoped_lock lock(unfinished().mutex);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    throw UnwritablePath(
-        fmt::format("{}: cannot be written ({})", path.string(), std::generic_category().message(errno)));
-  }
+  if (descriptor < 0) refuse_to_write(path, errno);
   ::close(descriptor);
   temporary_ = temporary;
   unfinished().names.insert(temporary);
@@ -210,7 +207,7 @@ void link_whole_file(const std::filesystem::path& from, const std::filesystem::p
     if (!error) {
       std::filesystem::rename(temporary, to, error);
       ::unlink(temporary.c_str());  // there still if both were one file already
-      if (error) throw InputError(fmt::format("{}: cannot be written ({})", to.string(), error.message()));
+      if (error) refuse_to_write(to, error.value());
       return;
     }
   }

@@ -20,7 +20,7 @@ struct FileText {
 /// was. Devices and FIFOs are written in place.
 class WholeFile {
  public:
-  /// Throws UnwritablePath.
+  /// Throws as destination_of, or WritingFailed on a full disk.
   explicit WholeFile(const std::filesystem::path& path);
   ~WholeFile();
   WholeFile(WholeFile&& other) noexcept;
@@ -51,7 +51,7 @@ void write_note(const std::filesystem::path& path, const std::string& bytes);
 void write_whole_files(const std::vector<FileText>& texts);
 
 /// A second name for the same bytes where the file system can, else a copy, which takes the place of a file
-/// that is there. Throws InputError where it cannot be written, Interrupted without permission.
+/// that is there. Throws UnwritablePath or WritingFailed, Interrupted without permission.
 void link_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// For a program that writes nothing more once it is told to stop: `permission` is asked, on the thread that

@@ -97,7 +97,11 @@ class Manual(program.ProgramTest):
             options = options_of(self.run_indet(*([name] if name else []), "--help").stdout)
             self.assertGreaterEqual(len(options), 1)
             self.assertLessEqual(options, options_in(page), name)
-            self.assertIn("4 no contact forces balance the load", " ".join(page.split()))
+            text = " ".join(page.split())
+            self.assertIn("4 no contact forces balance the load", text)
+            if name:
+                does = " ".join(self.run_indet(name, "--help").stdout.partition("\nUsage:")[0].split())
+                self.assertIn(f"{name} - {does} ", text)
 
 
 if __name__ == "__main__":

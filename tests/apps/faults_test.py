@@ -20,21 +20,13 @@ import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import program  # noqa: E402
+from mounting import mount_namespace  # noqa: E402
 from program import ProgramTest, groove, pyramid, run  # noqa: E402
 
 LAMMPS = ""  # the folder with the dumps
 
 
-def can_mount():
-    """A mount namespace of our own: as root, or as an ordinary user where the kernel allows it."""
-    for command in (["unshare", "-m"], ["unshare", "-rm"]):
-        probe = [*command, "sh", "-c", "mount -t tmpfs none /mnt"]
-        if shutil.which("unshare") and subprocess.run(probe, capture_output=True, check=False).returncode == 0:
-            return command
-    return None
-
-
-MOUNT = can_mount()
+MOUNT = mount_namespace()
 
 
 class DamagedFiles(ProgramTest):

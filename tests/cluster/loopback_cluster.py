@@ -106,7 +106,7 @@ class Cluster:
     def kill_node(self, number):
         """As a node that loses its power: slurmd and all that it started end without a word."""
         daemon = self.processes[f"node{number}"]
-        for process in [daemon.pid, *offspring_on(f"node{number}", self.folder)]:  # the daemon first: it would tell
+        for process in [daemon.pid, *self.offspring(f"node{number}")]:  # the daemon first: it would tell
             with contextlib.suppress(ProcessLookupError):
                 os.kill(process, signal.SIGKILL)
         daemon.wait()
@@ -120,25 +120,34 @@ class Cluster:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
+        for process, _ in self.running():  # jobs, and slurmstepd, outlive slurmd
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
 
+    def running(self):
+        """(process id, environment) of all that was started with this cluster's environment, here or by a node."""
+        mark = f"SLURM_CONF={self.folder}/slurm.conf".encode()
+        found = []
+        for entry in pathlib.Path("/proc").iterdir():
+            if entry.name.isdigit():
+                with contextlib.suppress(OSError):
+                    environment = (entry / "environ").read_bytes().split(b"\0")
+                    if mark in environment:
+                        found.append((int(entry.name), environment))
+        return found
 
-def offspring_on(node, folder):
-    """Process ids of what a node runs: slurmstepd first, which would tell of the end of the others."""
-    marks = {f"SLURMD_NODENAME={node}".encode(), f"SLURM_CONF={folder}/slurm.conf".encode()}
-    steps, found = set(), []
-    for entry in pathlib.Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        try:
-            if not marks <= set((entry / "environ").read_bytes().split(b"\0")):
+    def offspring(self, node):
+        """Process ids of what a node runs: slurmstepd first, which would tell of the end of the others."""
+        steps, found = set(), []
+        for process, environment in self.running():
+            if f"SLURMD_NODENAME={node}".encode() not in environment:
                 continue
-            parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
-            if pathlib.Path(f"/proc/{parent}/cmdline").read_bytes().startswith(b"slurmstepd"):
-                steps.add(parent)
-        except OSError:
-            continue
-        found.append(int(entry.name))
-    return [*steps, *(process for process in found if process not in steps)]
+            with contextlib.suppress(OSError):
+                parent = int(pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[1])
+                if pathlib.Path(f"/proc/{parent}/cmdline").read_bytes().startswith(b"slurmstepd"):
+                    steps.add(parent)
+                found.append(process)
+        return [*steps, *(process for process in found if process not in steps)]
 
 
 @contextlib.contextmanager

@@ -62,7 +62,7 @@ class Submit(ClusterTest):
     def test_the_result_is_that_of_one_machine(self):
         with loopback_cluster.cluster(4) as cluster:
             report = self.submit(cluster)
-            self.assertEqual((report["packings"], report["tasks"], len(report["jobs"])), (MEMBERS, 4, 2))
+            self.assertEqual((report["items"], report["tasks"], len(report["jobs"])), (MEMBERS, 4, 2))
             cluster.wait_for_jobs()
         computed = self.check()
         self.assertEqual(set(computed.values()), {1})
@@ -80,6 +80,15 @@ class Submit(ClusterTest):
             cluster.wait_for_jobs()
         self.assertNotIn("back into the queue", self.logs())
         self.check(interrupted=1)
+
+
+    def test_a_test_that_fails_leaves_nothing_running(self):
+        with self.assertRaisesRegex(RuntimeError, "fails"), loopback_cluster.cluster(1) as cluster:
+            cluster.run("sbatch", "--wrap", "sleep 1000", cwd=self.folder)
+            self.wait_for(cluster, lambda: any(state == "RUNNING" for _, state in cluster.jobs()), "it does not start")
+            raise RuntimeError("fails")
+        self.assertFalse(cluster.folder.exists())
+        cluster.wait_until(lambda: not cluster.running(), 5, "something runs on")
 
 
 class Signals(ClusterTest):

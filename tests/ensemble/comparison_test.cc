@@ -71,6 +71,15 @@ TEST(Comparison, OrderIsDecidedByTwoStandardErrors) {
   EXPECT_STREQ(verdict_about({75, 8}, 60), kAgrees);
   EXPECT_STREQ(verdict_about({75, 7}, 60), kDiffers);
   EXPECT_STREQ(verdict_about({33, 38.9}, 60), kNotDecided) << "an error that allows anything";
+  EXPECT_STREQ(verdict_about({75, 10.1}, 60), kNotDecided) << "two errors are more than a third";
+}
+
+TEST(Comparison, AgreesOnlyWhereItCouldHaveDiffered) {
+  EXPECT_STREQ(verdict({33.6, 1.3}, 33, 1.4), kAgrees);
+  EXPECT_STREQ(verdict({40, 1.3}, 33, 1.4), kDiffers);
+  EXPECT_STREQ(verdict({187.9, 58.7}, 75, 4), kNotDecided);
+  EXPECT_STREQ(verdict({75, 12}, 75, 5), kNotDecided);
+  EXPECT_STREQ(verdict({75, 11}, 75, 5), kAgrees);
 }
 
 /// Verdicts on the sliding contacts of the four families, with these numbers in the raw states of both seeds.

@@ -324,6 +324,9 @@ class Agreement(EnsembleTest):
         runs = table(self.folder / "e/ensemble.h5", "runs")
         for name in ("cd1-0000", "md2-0001"):
             path = f"e/members/{name}.h5"
+            shown = self.run_indet("inspect", path).stdout
+            for limit in ("tilt: ", "tilt of several disks: ", "load mg on the highest disk: "):
+                self.assertEqual(shown.count("\n" + limit), 1, shown)
             with h5py.File(self.folder / path) as file:
                 position, mg = file["particles/disks/position"][()], file["parameters"].attrs["mg"]
                 top = file["particles/disks/id"][position[:, 1].argmax()]

@@ -99,7 +99,7 @@ TEST(CsvWriter, AFolderThatCannotBeMadeIsNamed) {
   const Packing packing = test::sample_packing();
   EXPECT_THAT(
       [&] { write_csv_scene(folder / "file" / "scene", packing, packing.simulated_forces().value()); },
-      ThrowsMessage<InputError>(HasSubstr("the folder cannot be made")));
+      ThrowsMessage<UnwritablePath>(HasSubstr("scene: cannot be written (Not a directory)")));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "apps/bridge/simulation_values.h"
 #include "apps/ensemble/members/folder.h"
 #include "libindet/base/error.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/simulation_file.h"
 
 namespace indet {
@@ -33,7 +34,7 @@ std::optional<sim::Checkpoint> MemberCheckpoint::load(const sim::World& start) c
 void MemberCheckpoint::save(const sim::Checkpoint& checkpoint) const {
   {
     const std::scoped_lock lock(hdf5_);
-    std::filesystem::create_directories(path_.parent_path());
+    make_folder(path_.parent_path());
     write_checkpoint(path_, stored(checkpoint, fingerprint_, {}), provenance_);
   }
   if (rules_.on_written) rules_.on_written();

@@ -10,6 +10,7 @@
 #include "apps/ensemble/members/member_file.h"
 #include "libindet/base/error.h"
 #include "libindet/base/random.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -113,7 +114,7 @@ class MemberBatch {
 BatchSummary compute_members(const EnsembleConfig& config, const Plan& plan,
                              const std::vector<Member>& members, const std::filesystem::path& folder,
                              const RunOptions& options) {
-  std::filesystem::create_directories(members_folder(folder));
+  make_folder(members_folder(folder));
   remove_leftovers(folder);
   remove_leftovers(members_folder(folder));
   return MemberBatch(config, plan, members, folder, options).run();

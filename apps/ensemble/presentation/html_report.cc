@@ -18,6 +18,7 @@
 #include "apps/ensemble/presentation/verdict.h"
 #include "libindet/base/counted.h"
 #include "libindet/base/error.h"
+#include "libindet/io/destination.h"
 #include "libindet/io/whole_file.h"
 
 namespace indet {
@@ -251,7 +252,7 @@ void write_report(const std::filesystem::path& folder, const EnsembleContents& c
                   const std::vector<std::pair<std::string, std::string>>& about,
                   const ProgressCallback& progress) {
   const std::filesystem::path figures_folder = folder / "figures";
-  std::filesystem::create_directories(figures_folder);
+  make_folder(figures_folder);
   const FlatTable& runs = contents.tables.runs;
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Force indeterminacy: "

@@ -5,9 +5,21 @@
 
 namespace indet {
 
+namespace {
+
+/// Two standard errors that are more than this share of a number decide nothing about it.
+constexpr double kLargestShare = 1.0 / 3;
+
+const char* verdict_within(double difference, double reach, double paper) {
+  if (difference > reach) return kDiffers;
+  return reach <= kLargestShare * std::abs(paper) ? kAgrees : kNotDecided;
+}
+
+}  // namespace
+
 const char* verdict(const Estimate& ours, double paper, double paper_error) {
   if (std::isnan(ours.value) || std::isnan(ours.error)) return kNotDecided;
-  return verdict_of(std::abs(ours.value - paper) <= 2 * std::hypot(ours.error, paper_error));
+  return verdict_within(std::abs(ours.value - paper), 2 * std::hypot(ours.error, paper_error), paper);
 }
 
 const char* verdict_of_order(const Estimate& large, const Estimate& small) {
@@ -18,10 +30,7 @@ const char* verdict_of_order(const Estimate& large, const Estimate& small) {
 }
 
 const char* verdict_about(const Estimate& ours, double paper) {
-  const double difference = std::abs(ours.value - paper);
-  const double reach = std::max(0.1 * paper, 2 * ours.error);
-  if (difference > reach) return kDiffers;
-  return reach <= 0.5 * paper ? kAgrees : kNotDecided;
+  return verdict_within(std::abs(ours.value - paper), std::max(0.1 * paper, 2 * ours.error), paper);
 }
 
 }  // namespace indet

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/command.h"
+#include "apps/ensemble_arguments.h"
+
+namespace indet::app {
+
+/// Work that is about to be submitted: what its folder is to hold, and how it can be dealt.
+struct SubmittedWork {
+  std::string folder;
+  std::string subcommand;  ///< That does it.
+  std::int64_t items = 0;
+  std::string item;           ///< What they are, for one: "packing".
+  double seconds = 0;         ///< On one core, estimated.
+  int groups = 0;             ///< What can be dealt, so many tasks at most.
+  std::string group, plural;  ///< "seed or file", "seeds and files"
+  std::function<std::vector<double>(int tasks)> costs_of_shares;
+  double seconds_to_collect = 0;
+  std::vector<std::string> afterwards;  ///< Arguments of the program once all is collected; empty: none.
+  std::function<void()> write_plan;     ///< Into the folder, which is there.
+};
+
+/// Throws like the subcommand before it computes, InputError where it may not write into the folder.
+SubmittedWork submitted_ensemble(const EnsembleArguments& arguments, bool overwrite, const Context& context);
+
+}  // namespace indet::app
