@@ -31,32 +31,6 @@ namespace fs = std::filesystem;
 
 void read_chunk(const fs::path& path) { read_ranges(open_indet_file(path)); }
 
-/// Throws InputError unless the folder is free, or has parts of this analysis.
-void claim_parts_folder(const fs::path& folder, const AnalysisPlan& plan, const Replacement& rule,
-                        bool overwrite) {
-  if (!fs::is_directory(folder)) return;
-  rule.require(folder / "analysis.toml", FileKind::kAnalysisPlan);
-  rule.require(joined_path(folder), FileKind::kRanges);
-  const bool is_own = has_analysis_plan(folder);
-  for (const fs::path& path : chunk_paths(folder, plan)) {
-    if (!fs::is_regular_file(path)) continue;
-    if (is_own) {
-      rule.require_unread(path);  // a damaged one is computed again
-    } else {
-      rule.require(path, FileKind::kRanges);
-    }
-  }
-  if (overwrite || !is_own) return;
-  const AnalysisPlan there = read_analysis_plan(folder);
-  if (there.hash() == plan.hash()) return;
-  const std::string difference = there.packing != plan.packing   ? "is of another packing"
-                                 : there.version != plan.version ? "was begun by another version of indet"
-                                                                 : "has other options";
-  throw InputError(fmt::format(
-      "{} holds an analysis that {}; take another folder, or --overwrite to begin again in this one",
-      folder.string(), difference));
-}
-
 PartsOptions parts_options(const ShareArguments& share, TaskLog& log, const Context& context) {
   PartsOptions options;
   options.threads = context.thread_count();
@@ -110,17 +84,48 @@ int join(const AnalysisPlan& plan, const std::vector<fs::path>& folders, const f
 
 }  // namespace
 
+void claim_parts_folder(const fs::path& folder, const AnalysisPlan& plan, const Replacement& rule,
+                        bool overwrite) {
+  if (!fs::is_directory(folder)) return;
+  rule.require(folder / "analysis.toml", FileKind::kAnalysisPlan);
+  rule.require(joined_path(folder), FileKind::kRanges);
+  const bool is_own = has_analysis_plan(folder);
+  for (const fs::path& path : chunk_paths(folder, plan)) {
+    if (!fs::is_regular_file(path)) continue;
+    if (is_own) {
+      rule.require_unread(path);  // a damaged one is computed again
+    } else {
+      rule.require(path, FileKind::kRanges);
+    }
+  }
+  if (overwrite || !is_own) return;
+  const AnalysisPlan there = read_analysis_plan(folder);
+  if (there.hash() == plan.hash()) return;
+  const std::string difference = there.packing != plan.packing   ? "is of another packing"
+                                 : there.version != plan.version ? "was begun by another version of indet"
+                                                                 : "has other options";
+  throw InputError(fmt::format(
+      "{} holds an analysis that {}; take another folder, or --overwrite to begin again in this one",
+      folder.string(), difference));
+}
+
+PlannedAnalysis plan_in_parts(const AnalyzeArguments& arguments, const Context& context) {
+  const Hdf5File file = open_packing(arguments.packing);
+  PlannedAnalysis planned;
+  planned.packing = packing_of(file, arguments);
+  planned.options = resolve(arguments, planned.packing, context);
+  if (is_exact(arguments.analysis)) planned.options.exactness = AnalyzeOptions::Exactness::kEverywhere;
+  const int contacts = planned.packing.contact_count();
+  if (const auto obstacle = obstacle_to_dealing(planned.options, contacts))
+    throw UsageError(fmt::format("--out deals contacts to processes: {}", *obstacle));
+  planned.plan = make_analysis_plan(packing_digest(file), contacts, planned.options, arguments.conditions);
+  return planned;
+}
+
 int analyze_in_parts(const AnalyzeArguments& arguments, const fs::path& folder, const ShareArguments& share,
                      bool overwrite, const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
-  const Hdf5File file = open_packing(arguments.packing);
-  const Packing packing = packing_of(file, arguments);
-  AnalyzeOptions analysis = resolve(arguments, packing, context);
-  if (is_exact(arguments.analysis)) analysis.exactness = AnalyzeOptions::Exactness::kEverywhere;
-  if (const auto obstacle = obstacle_to_dealing(analysis, packing.contact_count()))
-    throw UsageError(fmt::format("--out deals contacts to processes: {}", *obstacle));
-  const AnalysisPlan plan =
-      make_analysis_plan(packing_digest(file), packing.contact_count(), analysis, arguments.conditions);
+  const auto [packing, analysis, plan] = plan_in_parts(arguments, context);
   std::optional<Shard> shard = share_of(share, context);
   if (shard && shard->count == 1) shard.reset();
   try_reading(chunk_paths(folder, plan), read_chunk);

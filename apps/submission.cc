@@ -122,8 +122,11 @@ std::string finish_script(const Submission& s) {
 std::string parallel_commands(const Submission& s) {
   std::string text;
   for (int number = 1; number <= s.tasks; ++number) {
-    text += fmt::format("cd -- {} && {} --shard {}/{} --threads {}\n", shell_quoted(s.directory.string()),
-                        shell_quoted(s.command), number, s.tasks, s.resources.processors);
+    // Right after the subcommand: what follows may end with -- and names of files.
+    std::vector<std::string> command = s.command;
+    command.insert(command.begin() + 2, {"--shard", fmt::format("{}/{}", number, s.tasks), "--threads",
+                                         std::to_string(s.resources.processors)});
+    text += fmt::format("cd -- {} && {}\n", shell_quoted(s.directory.string()), shell_quoted(command));
   }
   return text;
 }

@@ -19,7 +19,7 @@ struct TaskResources {
 struct Submission {
   std::filesystem::path directory;      ///< Where the program is to run.
   std::filesystem::path folder;         ///< FOLDER of the work, as the program is given it.
-  std::vector<std::string> command;     ///< The program and its arguments, without --shard.
+  std::vector<std::string> command;     ///< The program, its subcommand and arguments; no --shard.
   std::vector<std::string> afterwards;  ///< What follows once all is collected; may be empty.
   int tasks = 1;
   TaskResources resources;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/analyze_arguments.h"
 #include "apps/batch/work_status.h"
 #include "apps/command.h"
 #include "apps/ensemble_arguments.h"
@@ -40,6 +41,8 @@ constexpr int kMaxArraySize = 1001;
 
 struct SubmitCommand {
   EnsembleArguments ensemble;
+  AnalyzeArguments analysis;
+  std::string analysis_folder;
   std::optional<int> tasks;
   std::string engine = "slurm", time;
   TaskResources resources;
@@ -271,8 +274,19 @@ Command add_submit(CLI::App& root) {
       "ensemble", "The packings of an ensemble, with the options of indet ensemble; seeds are dealt");
   add_ensemble_options(*ensemble, o->ensemble);
   ensemble->fallthrough();
-  return {command, [o, ensemble](const Context& context) {
+  CLI::App* analyze = command->add_subcommand(
+      "analyze", "The ranges of one large packing, with the options of indet analyze; contacts are dealt");
+  analyze->add_option("--out", o->analysis_folder, "Folder in which the tasks share the work")
+      ->required()
+      ->type_name("FOLDER");
+  add_analyze_options(*analyze, o->analysis);
+  analyze->fallthrough();
+  return {command, [o, ensemble, analyze](const Context& context) {
             check(*o);
+            if (analyze->parsed()) {
+              return run(*o, submitted_analysis(o->analysis, o->analysis_folder, o->overwrite, context),
+                         *analyze, context);
+            }
             return run(*o, submitted_ensemble(o->ensemble, o->overwrite, context), *ensemble, context);
           }};
 }

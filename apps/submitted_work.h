@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/analyze_arguments.h"
 #include "apps/command.h"
 #include "apps/ensemble_arguments.h"
 
@@ -27,5 +28,7 @@ struct SubmittedWork {
 
 /// Throws like the subcommand before it computes, InputError where it may not write into the folder.
 SubmittedWork submitted_ensemble(const EnsembleArguments& arguments, bool overwrite, const Context& context);
+SubmittedWork submitted_analysis(const AnalyzeArguments& arguments, const std::string& folder, bool overwrite,
+                                 const Context& context);
 
 }  // namespace indet::app

@@ -73,17 +73,29 @@ class ChunkBatch {
   std::mutex hdf5_;  ///< Only one thread at a time is in HDF5.
 };
 
+std::vector<int> shares_of(const AnalysisPlan& plan, int count) {
+  std::vector<double> costs;
+  for (const Chunk& chunk : plan.chunks) costs.push_back(chunk.cost);
+  return deal(costs, count);
+}
+
 }  // namespace
 
 std::vector<Chunk> chunks_of(const AnalysisPlan& plan, const Shard& shard) {
-  std::vector<double> costs;
-  for (const Chunk& chunk : plan.chunks) costs.push_back(chunk.cost);
-  const std::vector<int> share_of = deal(costs, shard.count);
+  const std::vector<int> share_of = shares_of(plan, shard.count);
   std::vector<Chunk> chunks;
   for (std::size_t i = 0; i < plan.chunks.size(); ++i) {
     if (share_of[i] == shard.number) chunks.push_back(plan.chunks[i]);
   }
   return chunks;
+}
+
+std::vector<double> costs_of_shares(const AnalysisPlan& plan, int count) {
+  const std::vector<int> share_of = shares_of(plan, count);
+  std::vector<double> costs(static_cast<std::size_t>(count), 0);
+  for (std::size_t i = 0; i < plan.chunks.size(); ++i)
+    costs[static_cast<std::size_t>(share_of[i] - 1)] += plan.chunks[i].cost;
+  return costs;
 }
 
 std::vector<Chunk> open_chunks(const AnalysisPlan& plan, const std::vector<Chunk>& chunks,

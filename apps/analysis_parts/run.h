@@ -21,6 +21,9 @@ namespace indet {
 /// The chunks of one share of the work; each share costs about the same.
 std::vector<Chunk> chunks_of(const AnalysisPlan& plan, const Shard& shard);
 
+/// Estimated seconds of each share.
+std::vector<double> costs_of_shares(const AnalysisPlan& plan, int count);
+
 struct PartsOptions {
   int threads = 1;
   ProgressCallback progress;

@@ -155,6 +155,17 @@ class Parts(program.ProgramTest):
         self.analyze("-o", "whole.h5", environment=array)  # has no shares
         self.assertTrue((self.folder / "whole.h5").exists())
 
+    @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is not there")
+    def test_a_submitted_analysis_is_one_analysis(self):
+        self.analyze("-o", "whole.h5")
+        submit = ["submit", "analyze", "p.h5", *BARRIER, "--out", "f", "--engine", "parallel"]
+        self.assertIn("4 parts, about", self.run_indet(*submit, "--tasks", "2").stdout)
+        self.assertIn("there are 4 parts to deal", self.run_indet(*submit, "--tasks", "5", status=2).stderr)
+        self.run_indet(*submit, "--tasks", "2", "--run")
+        self.expect_same("f/ranges.h5", "whole.h5")
+        records = [json.loads(path.read_text()) for path in (self.folder / "f/tasks").iterdir()]
+        self.assertEqual({record["shard"] for record in records}, {"shard 1/2", "shard 2/2"})
+
     def test_a_folder_of_another_analysis_is_left_alone(self):
         self.analyze("--out", "f", "--shard", "1/100")
         self.assertIn("has other options", self.analyze("--gap", "1e-3", "--out", "f", status=3).stderr)
