@@ -91,6 +91,24 @@ class Submit(ClusterTest):
         cluster.wait_until(lambda: not cluster.running(), 5, "something runs on")
 
 
+class Analysis(ClusterTest):
+    def test_the_ranges_of_one_packing_are_those_of_one_process(self):
+        self.run_indet("simulate", "--protocol", "cd1", "--disks", "200", "--seed", "1", "-o", "p.h5")
+        self.run_indet("analyze", "p.h5", "--method", "barrier", "-o", "alone.h5")
+        with loopback_cluster.cluster(4) as cluster:
+            report = json.loads(cluster.run(program.INDET, "submit", "analyze", "p.h5", "--method", "barrier", "--out", "shared folder",
+                                            "--tasks", "8", "--json", "--run", cwd=self.folder))
+            self.assertEqual(report["tasks"], 8)
+            cluster.wait_for_jobs()
+        self.assertEqual(program.content(self.folder / "shared folder/ranges.h5"), program.content(self.folder / "alone.h5"), self.logs())
+        computed = collections.Counter(item["name"] for record in self.records() for item in record["done"])
+        self.assertEqual((len(computed), set(computed.values())), (report["items"], {1}))
+        self.assertEqual({record["shard"] for record in self.records() if record["done"]},
+                         {f"shard {number}/8" for number in range(1, 9)})
+        status = json.loads(self.run_indet("status", "shared folder", "--json").stdout)
+        self.assertEqual((status["kind"], status["done"], status["collected"]), ("analysis", report["items"], True))
+
+
 class Signals(ClusterTest):
     def test_tasks_that_are_signalled_go_on_where_they_were(self):
         with loopback_cluster.cluster(4) as cluster:
