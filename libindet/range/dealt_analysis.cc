@@ -49,9 +49,13 @@ DealtAnalysis::DealtAnalysis(const Packing& packing, const AnalyzeOptions& optio
     throw InputError(
         "no state of this packing is admissible, so that there are no ranges to deal; indet analyze "
         "without --out shows what moves");
-  if (start_.choice.method != Method::kBarrier)
-    throw InputError(
-        fmt::format("{}, and linear programs, which find it then, are not dealt", start_.choice.reason));
+  if (start_.choice.method != Method::kBarrier) {
+    const bool has_no_states =
+        polytope.status == PolytopeStatus::kUnbounded && start_.kept.kind != StateChoice::Kind::kNone;
+    throw InputError(fmt::format("{}, and linear programs, which find its ranges then, are not dealt{}",
+                                 start_.choice.reason,
+                                 has_no_states ? "; --method barrier without extremal states may do" : ""));
+  }
   if (may_be_left_to_programs(polytope))
     throw InputError(
         "some contact forces can grow without limit in this small packing, and linear programs, "

@@ -179,6 +179,8 @@ TEST(DealtAnalysis, SaysWhatCannotBeDealt) {
   EXPECT_THAT(dealing(pile, options), ThrowsMessage<InputError>(HasSubstr("largest")));
   EXPECT_THAT(dealing(zoo::disk_on_incline(0.1, 1), by_barrier()),
               ThrowsMessage<InputError>(HasSubstr("admissible")));
+  EXPECT_THAT(dealing(zoo::wedge(1.4, 0.3), by_barrier(StateChoice::Kind::kCanonical)),
+              ThrowsMessage<InputError>(HasSubstr("without extremal states may do")));
   EXPECT_THAT(dealing(zoo::wedge(1.4, 0.3), by_barrier()),
               ThrowsMessage<InputError>(HasSubstr("without limit")));
 }
