@@ -108,6 +108,7 @@ std::string array_script(const Submission& s) {
 
 std::string finish_script(const Submission& s) {
   Submission last = s;
+  if (!s.memory_to_collect.empty()) last.resources.memory = s.memory_to_collect;
   if (s.resources.seconds > 0) last.resources.seconds = std::max(s.resources.seconds, s.seconds_to_collect);
   std::string text = "#!/bin/bash\n# After all tasks: computes what they left, and collects the results.\n" +
                      options_of(last, job_name(s) + "-finish") + log_of(s, "%j.txt") + body(s);

@@ -23,6 +23,7 @@ struct Submission {
   std::vector<std::string> afterwards;  ///< What follows once all is collected; may be empty.
   int tasks = 1;
   TaskResources resources;
+  std::string memory_to_collect;  ///< Of the last job; empty: as of the tasks.
   double seconds_to_collect = 0;  ///< Of the last job, which cannot be cut; its limit is not below that.
 
   std::filesystem::path scripts() const { return folder / "cluster"; }

@@ -44,7 +44,7 @@ struct SubmitCommand {
   AnalyzeArguments analysis;
   std::string analysis_folder;
   std::optional<int> tasks;
-  std::string engine = "slurm", time;
+  std::string engine = "slurm", time, memory_to_collect;
   TaskResources resources;
   std::optional<int> jobs;
   bool runs = false;
@@ -153,6 +153,7 @@ void check(const SubmitCommand& o) {
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"--partition", asked.partition},
                                       {"--account", asked.account},
                                       {"--mem", asked.memory},
+                                      {"--mem-to-collect", o.memory_to_collect},
                                       {"--time", o.time}})
     require_one_line(option, value);
   for (const std::string& line : asked.lines) require_one_line("--line", line);
@@ -190,6 +191,7 @@ int run(const SubmitCommand& o, const SubmittedWork& work, const CLI::App& comma
                         .afterwards = {},
                         .tasks = tasks_for(work, o),
                         .resources = o.resources,
+                        .memory_to_collect = o.memory_to_collect,
                         .seconds_to_collect = kLeastTime + work.seconds_to_collect};
   const std::vector<std::string> words = words_of(command);
   submission.command.insert(submission.command.end(), words.begin(), words.end());
@@ -262,6 +264,9 @@ Command add_submit(CLI::App& root) {
   command->add_option("--cpus", o->resources.processors, "Processors of each task")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_option(
+      "--mem-to-collect", o->memory_to_collect,
+      "slurm: memory of the job that collects, 13G for 100 000 packings of 95 disks (default: --mem)");
   command->add_option("--mem", o->resources.memory,
                       "slurm: memory of a task, as 2G (default: the cluster's)");
   command->add_option("--line", o->resources.lines,

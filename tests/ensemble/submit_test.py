@@ -33,12 +33,13 @@ class Submit(program.ProgramTest):
         self.assertEqual(sorted(path.name for path in (self.folder / "e").iterdir()), ["cluster", "ensemble.toml"])
 
     def test_options_of_the_batch_system(self):
-        self.submit("-o", "e", "--tasks", "3", "--partition", "long", "--account", "grains", "--mem", "2G", "--cpus", "2", "--time",
+        self.submit("-o", "e", "--tasks", "3", "--partition", "long", "--account", "grains", "--mem", "2G", "--mem-to-collect", "13G", "--cpus", "2", "--time",
                     "1-00:30:00", "--line=--constraint=avx2", "--line=--nice=10")
         lines = self.script("array.sh").splitlines()
         for line in ("--partition=long", "--account=grains", "--mem=2G", "--cpus-per-task=2", "--time=1-00:30:00", "--constraint=avx2",
                      "--nice=10", "--array=1-3", "--requeue", "--open-mode=append", "--signal=B:USR1@75"):
             self.assertIn(f"#SBATCH {line}", lines)
+        self.assertIn("#SBATCH --mem=13G", self.script("finish.sh").splitlines())
         self.assertNotIn("--array", self.script("finish.sh"))
         self.assertIn(" report e", self.script("finish.sh"))
 
