@@ -16,15 +16,15 @@ BatchSummary run_with_log(const std::filesystem::path& folder, TaskRecord record
   set_last_act([&log] { log.end("stopped"); });
   try {
     BatchSummary summary = work(log);
-    set_last_act({});
     log.end(summary.is_interrupted      ? "stopped"
             : summary.out_of_time > 0   ? "out of time"
             : !summary.failures.empty() ? "failed"
                                         : "done");
+    set_last_act({});  // only now: the program may be ended at any moment
     return summary;
   } catch (...) {
-    set_last_act({});
     log.end("failed");
+    set_last_act({});
     throw;
   }
 }

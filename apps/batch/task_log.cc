@@ -89,6 +89,7 @@ void TaskLog::note_checkpoint() {
 
 void TaskLog::end(const std::string& state) {
   const std::scoped_lock lock(mutex_);
+  if (record_.state != "running") return;  // the first word holds
   record_.state = state;
   record_.in_hand.clear();
   write();

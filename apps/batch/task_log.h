@@ -30,7 +30,7 @@ class TaskLog {
   void leave(const std::string& item, bool is_there_already);
   void note_there_already(std::int64_t items);
   void note_checkpoint();
-  /// Sets the state and writes it. Not while another call of this thread is under way.
+  /// Sets the state, once, and writes it. Not while another call of this thread is under way.
   void end(const std::string& state);
 
   /// Writes the record if something was noted and the last time is two seconds ago, or half a minute in any
