@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -14,12 +11,12 @@
 #include "apps/analysis_parts/plan.h"
 #include "apps/analysis_parts/run.h"
 #include "apps/interruption.h"
-#include "apps/logged_run.h"
 #include "apps/output_files.h"
 #include "apps/packing_input.h"
-#include "apps/say.h"
+#include "apps/shared_run.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
+#include "libindet/base/stopwatch.h"
 #include "libindet/io/destination.h"
 #include "libindet/io/ranges_file.h"
 #include "libindet/range/dealt_analysis.h"
@@ -34,45 +31,11 @@ void read_chunk(const fs::path& path) { read_ranges(open_indet_file(path)); }
 PartsOptions parts_options(const ShareArguments& share, TaskLog& log, const Context& context) {
   PartsOptions options;
   options.threads = context.thread_count();
-  options.progress = [show = context.progress()](const Progress& progress) {
-    set_remains(fmt::format("done: {}; the same command goes on", progress.details));
-    return show(progress);
-  };
+  options.progress = shared_progress(context);
   options.time_budget = time_budget_of(share);
   options.log = &log;
   options.provenance = {context.arguments, context.resolved_config, {}, {}};
   return options;
-}
-
-/// Says what a run did that does not join; returns the exit status.
-int report_share(const fs::path& folder, const std::string& shard, const BatchSummary& summary,
-                 double seconds, const Context& context) {
-  if (context.json) {
-    nlohmann::json failures = nlohmann::json::array();
-    for (const ItemFailure& failure : summary.failures)
-      failures.push_back({{"part", failure.item}, {"reason", failure.reason}});
-    std::cout << nlohmann::json{{"folder", folder.string()},
-                                {"shard", shard},
-                                {"done", summary.done},
-                                {"skipped", summary.there_already},
-                                {"out_of_time", summary.out_of_time},
-                                {"failures", failures},
-                                {"seconds", seconds}}
-                     .dump(2)
-              << '\n';
-  } else if (context.prints_report()) {
-    const std::string left =
-        summary.out_of_time > 0 ? fmt::format(", {} left for want of time", summary.out_of_time) : "";
-    say("{}: {} computed, {} there already, {} failed{} ({:.1f} s)\n", shard.empty() ? "all parts" : shard,
-        summary.done, summary.there_already, summary.failures.size(), left, seconds);
-    if (summary.out_of_time > 0 || !summary.failures.empty()) {
-      say("the same command goes on\n");
-    } else {
-      say("once all shards are done, the same command without --shard joins the parts\n");
-    }
-  }
-  if (summary.out_of_time > 0) return kOutOfTime;
-  return summary.failures.empty() ? kDone : kUncertain;
 }
 
 int join(const AnalysisPlan& plan, const std::vector<fs::path>& folders, const fs::path& output,
@@ -124,7 +87,7 @@ PlannedAnalysis plan_in_parts(const AnalyzeArguments& arguments, const Context& 
 
 int analyze_in_parts(const AnalyzeArguments& arguments, const fs::path& folder, const ShareArguments& share,
                      bool overwrite, const Context& context) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto [packing, analysis, plan] = plan_in_parts(arguments, context);
   std::optional<Shard> shard = share_of(share, context);
   if (shard && shard->count == 1) shard.reset();
@@ -152,8 +115,9 @@ int analyze_in_parts(const AnalyzeArguments& arguments, const fs::path& folder, 
     context.warn(fmt::format("{}: {}", failure.item, failure.reason));
   if (summary.is_interrupted) return stopped();
   if (shard || summary.out_of_time > 0 || !summary.failures.empty()) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return report_share(folder, name, summary, seconds, context);
+    return report_share(
+        {folder, "part", name, "once all shards are done, the same command without --shard joins the parts"},
+        summary, watch.seconds(), context);
   }
   return join(plan, {folder}, joined_path(folder), context);
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -18,14 +17,15 @@
 #include "apps/ensemble_arguments.h"
 #include "apps/ensemble_output.h"
 #include "apps/interruption.h"
-#include "apps/logged_run.h"
 #include "apps/memory_limit.h"
 #include "apps/output_files.h"
 #include "apps/say.h"
 #include "apps/scheduler.h"
+#include "apps/shared_run.h"
 #include "apps/trial_reading.h"
 #include "libindet/base/error.h"
 #include "libindet/base/printable.h"
+#include "libindet/base/stopwatch.h"
 #include "libindet/io/destination.h"
 #include "libindet/lp/glpk_problem.h"
 #include "libsim/memory_estimate.h"
@@ -46,6 +46,7 @@ struct EnsembleCommand {
 struct Selection {
   std::vector<Member> members;
   std::string name;  ///< "members 3-17", "shard 3/8"; empty: all.
+  std::string next;  ///< What to do once they and all others are done.
 };
 
 std::vector<Member> numbered(const std::string& text, const Plan& plan) {
@@ -74,11 +75,12 @@ std::vector<Member> numbered(const std::string& text, const Plan& plan) {
 Selection selection_of(const EnsembleCommand& o, const Plan& plan, const Context& context) {
   if (!o.members.empty()) {
     if (!o.share.shard.empty()) throw UsageError("--members and --shard do not go together");
-    return {numbered(o.members, plan), "members " + o.members};
+    return {numbered(o.members, plan), "members " + o.members, "join the parts with indet merge"};
   }
   const std::optional<Shard> shard = share_of(o.share, context);
-  if (!shard || shard->count == 1) return {plan.members, ""};
-  return {members_of(plan, *shard), "shard " + shard->name()};
+  if (!shard || shard->count == 1) return {plan.members, "", ""};
+  return {members_of(plan, *shard), "shard " + shard->name(),
+          "once all shards are done, the same command without --shard collects the results"};
 }
 
 int list_members(const Selection& selection, const std::filesystem::path& folder, const Context& context) {
@@ -134,10 +136,7 @@ void note_time(const EnsembleConfig& config, const Context& context) {
 RunOptions run_options(const EnsembleCommand& o, TaskLog& log, const Context& context) {
   RunOptions options;
   options.threads = context.thread_count();
-  options.progress = [show = context.progress()](const Progress& progress) {
-    set_remains(fmt::format("done: {}; the same command goes on", progress.details));
-    return show(progress);
-  };
+  options.progress = shared_progress(context);
   options.warn = [&context](const std::string& text) { context.warn(text); };
   options.time_budget = time_budget_of(o.share);
   options.log = &log;
@@ -156,7 +155,7 @@ BatchSummary compute(const EnsembleCommand& o, const EnsembleConfig& config, con
 }
 
 int run(const EnsembleCommand& o, const Context& context) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const EnsembleConfig config = config_of(o.arguments);
   const Plan plan = make_plan(config);
   const Selection selection = selection_of(o, plan, context);
@@ -179,12 +178,10 @@ int run(const EnsembleCommand& o, const Context& context) {
     context.warn(fmt::format("{}: {}", failure.item, failure.reason));
   if (summary.is_interrupted) return stopped();
 
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
+  const auto seconds = [&] { return watch.seconds(); };
   if (context.prints_report()) print_molecular_dynamics(config, o.arguments.preset);
   if (!selection.name.empty() || summary.out_of_time > 0)
-    return report_part(folder, selection.name, !o.members.empty(), summary, seconds(), context);
+    return report_share({folder, "member", selection.name, selection.next}, summary, seconds(), context);
   Collection collection = collect_members(plan, {folder}, context.progress());
   return finish_ensemble(folder, plan, std::move(collection), summary, seconds, context);
 }

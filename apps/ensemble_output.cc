@@ -11,19 +11,9 @@
 #include "apps/ensemble/presentation/smallest_distance_summary.h"
 #include "apps/ensemble/tables/ensemble_file.h"
 #include "apps/say.h"
+#include "apps/shared_run.h"
 
 namespace indet::app {
-namespace {
-
-nlohmann::json failures_json(const std::vector<ItemFailure>& failures) {
-  nlohmann::json json = nlohmann::json::array();
-  for (const ItemFailure& failure : failures)
-    json.push_back({{"member", failure.item}, {"reason", failure.reason}});
-  return json;
-}
-
-}  // namespace
-
 void claim_folder(const std::filesystem::path& folder, const std::vector<Member>& members,
                   const Replacement& rule) {
   namespace fs = std::filesystem;
@@ -41,35 +31,6 @@ void claim_folder(const std::filesystem::path& folder, const std::vector<Member>
       rule.require(path, FileKind::kMember);
     }
   }
-}
-
-int report_part(const std::filesystem::path& folder, const std::string& name, bool is_joined,
-                const BatchSummary& summary, double seconds, const Context& context) {
-  if (context.json) {
-    std::cout << nlohmann::json{{"folder", folder.string()},
-                                {"part", name},
-                                {"done", summary.done},
-                                {"skipped", summary.there_already},
-                                {"out_of_time", summary.out_of_time},
-                                {"failures", failures_json(summary.failures)},
-                                {"seconds", seconds}}
-                     .dump(2)
-              << '\n';
-  } else if (context.prints_report()) {
-    const std::string left =
-        summary.out_of_time > 0 ? fmt::format(", {} left for want of time", summary.out_of_time) : "";
-    say("{}: {} computed, {} there already, {} failed{} ({:.1f} s)\n", name.empty() ? "all members" : name,
-        summary.done, summary.there_already, summary.failures.size(), left, seconds);
-    if (summary.out_of_time > 0) {
-      say("the same command goes on\n");
-    } else if (is_joined) {
-      say("join the parts with indet merge\n");
-    } else {
-      say("once all shards are done, the same command without --shard collects the results\n");
-    }
-  }
-  if (summary.out_of_time > 0) return kOutOfTime;
-  return summary.failures.empty() ? kDone : kUncertain;
 }
 
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,
@@ -104,7 +65,7 @@ int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Colle
                            {"done", summary.done},
                            {"skipped", summary.there_already},
                            {"missing", contents.missing},
-                           {"failures", failures_json(summary.failures)},
+                           {"failures", to_json(summary.failures, "member")},
                            {"seconds", seconds()}};
     if (!known.empty()) {
       json["smallest_distances"] = {{"known", runs.sum("d_min_known")},

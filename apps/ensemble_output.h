@@ -19,11 +19,6 @@ namespace indet::app {
 void claim_folder(const std::filesystem::path& folder, const std::vector<Member>& members,
                   const Replacement& rule);
 
-/// Says what a run did that does not collect: of the part that `name` says, of all if it is empty, or one
-/// that had no time for some; returns the exit status. `is_joined`: the part has a folder of its own.
-int report_part(const std::filesystem::path& folder, const std::string& name, bool is_joined,
-                const BatchSummary& summary, double seconds, const Context& context);
-
 /// Writes what was collected to FOLDER/ensemble.h5 and says what is in it; returns the exit status: 5 if
 /// members are missing or something is imprecise.
 int finish_ensemble(const std::filesystem::path& folder, const Plan& plan, Collection collection,

@@ -10,6 +10,7 @@
 
 #include "apps/numbers.h"
 #include "apps/shell.h"
+#include "apps/slurm_time.h"
 #include "libindet/base/printable.h"
 
 namespace indet::app {
@@ -80,8 +81,8 @@ void add_share_options(CLI::App& command, const std::string& work, ShareArgument
       ->type_name("K/N");
   command
       .add_option("--time-budget", arguments.time_budget,
-                  "Start nothing that will probably not be finished within this many seconds; 0: no limit "
-                  "(default: in a Slurm job, what is left of its time limit)")
+                  "Start nothing but the first that will probably not be finished within this many seconds; "
+                  "0: no limit (default: in a Slurm job, what is left of its time limit)")
       ->type_name("SECONDS")
       ->check(not_negative());
 }

@@ -21,6 +21,11 @@ bool is_newer(const fs::path& file, const fs::path& other) {
   return !error && written >= changed;
 }
 
+/// The result is there, of these items and this plan.
+bool is_collected(const SharedWork& work, const fs::path& plan) {
+  return is_newer(work.result, work.expected.results) && is_newer(work.result, plan);
+}
+
 SharedWork ensemble_in(const fs::path& folder) {
   const auto plan = std::make_shared<const Plan>(read_plan(folder));
   SharedWork work{.folder = folder,
@@ -37,8 +42,7 @@ SharedWork ensemble_in(const fs::path& folder) {
     const Member& member = plan->members[item];
     return member_is_done(member_path(folder, member.name), member);
   };
-  work.is_collected =
-      is_newer(work.result, members_folder(folder)) && is_newer(work.result, folder / "ensemble.toml");
+  work.is_collected = is_collected(work, folder / "ensemble.toml");
   return work;
 }
 
@@ -57,8 +61,7 @@ SharedWork analysis_in(const fs::path& folder) {
   work.expected.is_done = [plan, folder](std::size_t item) {
     return chunk_is_done(chunk_path(folder, plan->chunks[item]), *plan);
   };
-  work.is_collected =
-      is_newer(work.result, chunks_folder(folder)) && is_newer(work.result, folder / "analysis.toml");
+  work.is_collected = is_collected(work, folder / "analysis.toml");
   return work;
 }
 

@@ -1,6 +1,8 @@
 #include "apps/shell.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 
@@ -14,16 +16,21 @@ std::string first_line_of(const std::string& command) {
   return text.substr(0, text.find_first_of("\r\n"));
 }
 
-std::optional<double> seconds_from(const std::string& text) {
-  int days = 0, hours = 0, minutes = 0, seconds = 0;
-  char rest = 0;
-  const char* const all = text.c_str();
-  if (std::sscanf(all, "%d-%d:%d:%d%c", &days, &hours, &minutes, &seconds, &rest) == 4 ||
-      (days = 0, std::sscanf(all, "%d:%d:%d%c", &hours, &minutes, &seconds, &rest) == 3) ||
-      (hours = 0, std::sscanf(all, "%d:%d%c", &minutes, &seconds, &rest) == 2) ||
-      (seconds = 0, std::sscanf(all, "%d%c", &minutes, &rest) == 1))
-    return ((days * 24.0 + hours) * 60 + minutes) * 60 + seconds;
-  return std::nullopt;
+std::string shell_quoted(const std::string& word) {
+  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string("_./=,:+-@%").find(c) != std::string::npos;
+  });
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string shell_quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_quoted(word);
+  return text;
 }
 
 }  // namespace indet::app

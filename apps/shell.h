@@ -1,15 +1,15 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace indet::app {
 
 /// The first line that a command of the shell prints; empty where it prints none, or cannot be run.
 std::string first_line_of(const std::string& command);
 
-/// Slurm's notation of time, in seconds: "90" (minutes), "03:04", "02:03:04", "1-02:03:04"; nothing of
-/// "UNLIMITED" and the like.
-std::optional<double> seconds_from(const std::string& text);
+/// As a shell reads it again.
+std::string shell_quoted(const std::string& word);
+std::string shell_quoted(const std::vector<std::string>& words);
 
 }  // namespace indet::app

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <cctype>
+
+#include "apps/shell.h"
+#include "apps/slurm_time.h"
 
 namespace indet::app {
 namespace {
@@ -75,29 +77,6 @@ std::string log_of(const Submission& s, const std::string& pattern) {
 }
 
 }  // namespace
-
-std::string shell_quoted(const std::string& word) {
-  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string("_./=,:+-@%").find(c) != std::string::npos;
-  });
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string shell_quoted(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_quoted(word);
-  return text;
-}
-
-std::string slurm_time(double seconds) {
-  const auto minutes = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds / 60)));
-  const std::string clock = fmt::format("{:02}:{:02}:00", minutes / 60 % 24, minutes % 60);
-  return minutes < 24 * 60 ? clock : fmt::format("{}-{}", minutes / (24 * 60), clock);
-}
 
 std::string array_script(const Submission& s) {
   return "#!/bin/bash\n# One task of an array: its share of the work.\n# sbatch reads the lines that begin "

@@ -29,13 +29,6 @@ struct Submission {
   std::filesystem::path scripts() const { return folder / "cluster"; }
 };
 
-/// As a shell reads it again.
-std::string shell_quoted(const std::string& word);
-std::string shell_quoted(const std::vector<std::string>& words);
-
-/// "1-02:03:00", whole minutes, at least one.
-std::string slurm_time(double seconds);
-
 /// The scripts for sbatch: one for each task of an array, and one that computes what the tasks left,
 /// collects, and goes on with `afterwards`.
 std::string array_script(const Submission& submission);

@@ -7,11 +7,13 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/analyze_arguments.h"
+#include "apps/batch/shard.h"
 #include "apps/batch/work_status.h"
 #include "apps/command.h"
 #include "apps/ensemble_arguments.h"
@@ -19,6 +21,7 @@
 #include "apps/say.h"
 #include "apps/shared_work.h"
 #include "apps/shell.h"
+#include "apps/slurm_time.h"
 #include "apps/submission.h"
 #include "apps/submitted_work.h"
 #include "libindet/base/error.h"
@@ -161,17 +164,22 @@ void check(const SubmitCommand& o) {
     throw UsageError("--jobs has no effect without --engine parallel, which runs so many tasks at a time");
 }
 
+double seconds_of(const SubmittedWork& work) {
+  return std::accumulate(work.costs.begin(), work.costs.end(), 0.0);
+}
+
 int tasks_for(const SubmittedWork& work, const SubmitCommand& o) {
-  const int most = std::min(work.groups, o.engine == "slurm" ? largest_array() : work.groups);
+  const int groups = static_cast<int>(std::ssize(work.costs));
+  const int most = std::min(groups, o.engine == "slurm" ? largest_array() : groups);
   if (!o.tasks) {
-    const double wanted = std::ceil(work.seconds / (kSecondsPerTask * o.resources.processors));
+    const double wanted = std::ceil(seconds_of(work) / (kSecondsPerTask * o.resources.processors));
     return static_cast<int>(std::clamp<double>(wanted, 1, most));
   }
   if (*o.tasks <= most) return *o.tasks;
   throw UsageError(fmt::format(
       "--tasks {}: {}", *o.tasks,
-      most == work.groups ? fmt::format("there are {} to deal", counted(work.groups, work.group, work.plural))
-                          : fmt::format("an array of this cluster has at most {}", most)));
+      most == groups ? fmt::format("there are {} to deal", counted(groups, work.group, work.groups))
+                     : fmt::format("an array of this cluster has at most {}", most)));
 }
 
 double time_limit_for(double longest_share, const SubmitCommand& o) {
@@ -199,7 +207,8 @@ int run(const SubmitCommand& o, const SubmittedWork& work, const CLI::App& comma
     submission.afterwards = work.afterwards;
     submission.afterwards.insert(submission.afterwards.begin(), submission.command.front());
   }
-  const double longest = std::ranges::max(work.costs_of_shares(submission.tasks)) / o.resources.processors;
+  const double longest =
+      std::ranges::max(costs_of_shares(work.costs, submission.tasks)) / o.resources.processors;
   submission.resources.seconds = time_limit_for(longest, o);
 
   const Scripts scripts = scripts_of(submission, o);
@@ -215,7 +224,7 @@ int run(const SubmitCommand& o, const SubmittedWork& work, const CLI::App& comma
     std::cout << nlohmann::json{{"folder", work.folder},
                                 {"items", work.items},
                                 {"tasks", submission.tasks},
-                                {"seconds", work.seconds},
+                                {"seconds", seconds_of(work)},
                                 {"longest_share", longest},
                                 {"time_limit", submission.resources.seconds},
                                 {"scripts", files},
@@ -228,7 +237,7 @@ int run(const SubmitCommand& o, const SubmittedWork& work, const CLI::App& comma
       for (const FileText& file : scripts.files) say("# {}\n{}\n", file.path.string(), file.bytes);
     }
     say("{}, about {:.0f} s of work, in {} of at most {:.0f} s\n", counted(work.items, work.item),
-        work.seconds, counted(submission.tasks, "task"), longest);
+        seconds_of(work), counted(submission.tasks, "task"), longest);
     if (!o.runs) {
       say("nothing was started; to start it: {}\n", scripts.how);
     } else if (!jobs.empty()) {

@@ -17,10 +17,8 @@ struct SubmittedWork {
   std::string subcommand;  ///< That does it.
   std::int64_t items = 0;
   std::string item;           ///< What they are, for one: "packing".
-  double seconds = 0;         ///< On one core, estimated.
-  int groups = 0;             ///< What can be dealt, so many tasks at most.
-  std::string group, plural;  ///< "seed or file", "seeds and files"
-  std::function<std::vector<double>(int tasks)> costs_of_shares;
+  std::vector<double> costs;  ///< Of each group that is dealt, estimated seconds on one core.
+  std::string group, groups;  ///< "seed or file", "seeds and files"
   double seconds_to_collect = 0;
   std::vector<std::string> afterwards;  ///< Arguments of the program once all is collected; empty: none.
   std::function<void()> write_plan;     ///< Into the folder, which is there.

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "libindet/base/error.h"
 #include "libindet/base/toml_text.h"
 #include "libindet/io/whole_file.h"
@@ -32,12 +29,7 @@ std::string text_of(const AnalysisPlan& plan) {
 }  // namespace
 
 void write_analysis_plan(const fs::path& folder, const AnalysisPlan& plan) {
-  const fs::path path = plan_path(folder);
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream there;
-  there << file.rdbuf();
-  const std::string text = text_of(plan);
-  if (there.str() != text) write_whole_file(path, text);
+  keep_whole_file(plan_path(folder), text_of(plan));
 }
 
 bool has_analysis_plan(const fs::path& folder) {

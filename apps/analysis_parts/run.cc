@@ -73,16 +73,10 @@ class ChunkBatch {
   std::mutex hdf5_;  ///< Only one thread at a time is in HDF5.
 };
 
-std::vector<int> shares_of(const AnalysisPlan& plan, int count) {
-  std::vector<double> costs;
-  for (const Chunk& chunk : plan.chunks) costs.push_back(chunk.cost);
-  return deal(costs, count);
-}
-
 }  // namespace
 
 std::vector<Chunk> chunks_of(const AnalysisPlan& plan, const Shard& shard) {
-  const std::vector<int> share_of = shares_of(plan, shard.count);
+  const std::vector<int> share_of = deal(dealt_costs(plan), shard.count);
   std::vector<Chunk> chunks;
   for (std::size_t i = 0; i < plan.chunks.size(); ++i) {
     if (share_of[i] == shard.number) chunks.push_back(plan.chunks[i]);
@@ -90,11 +84,9 @@ std::vector<Chunk> chunks_of(const AnalysisPlan& plan, const Shard& shard) {
   return chunks;
 }
 
-std::vector<double> costs_of_shares(const AnalysisPlan& plan, int count) {
-  const std::vector<int> share_of = shares_of(plan, count);
-  std::vector<double> costs(static_cast<std::size_t>(count), 0);
-  for (std::size_t i = 0; i < plan.chunks.size(); ++i)
-    costs[static_cast<std::size_t>(share_of[i] - 1)] += plan.chunks[i].cost;
+std::vector<double> dealt_costs(const AnalysisPlan& plan) {
+  std::vector<double> costs;
+  for (const Chunk& chunk : plan.chunks) costs.push_back(chunk.cost);
   return costs;
 }
 
@@ -102,9 +94,9 @@ std::vector<Chunk> open_chunks(const AnalysisPlan& plan, const std::vector<Chunk
                                const fs::path& folder, const std::function<void(const std::string&)>& warn) {
   std::vector<Chunk> open;
   for (const Chunk& chunk : chunks) {
-    const ChunkState state = examine_chunk(chunk_path(folder, chunk), plan);
-    if (state.status == ChunkStatus::kUnreadable) warn(state.reason + "; it is computed again");
-    if (state.status != ChunkStatus::kDone) open.push_back(chunk);
+    const ItemState state = examine_chunk(chunk_path(folder, chunk), plan);
+    if (state.status == ItemStatus::kUnreadable) warn(state.reason + "; it is computed again");
+    if (state.status != ItemStatus::kDone) open.push_back(chunk);
   }
   return open;
 }

@@ -21,8 +21,8 @@ namespace indet {
 /// The chunks of one share of the work; each share costs about the same.
 std::vector<Chunk> chunks_of(const AnalysisPlan& plan, const Shard& shard);
 
-/// Estimated seconds of each share.
-std::vector<double> costs_of_shares(const AnalysisPlan& plan, int count);
+/// Estimated seconds of what is dealt: of each chunk.
+std::vector<double> dealt_costs(const AnalysisPlan& plan);
 
 struct PartsOptions {
   int threads = 1;

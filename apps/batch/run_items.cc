@@ -11,16 +11,11 @@
 #include <utility>
 
 #include "libindet/base/error.h"
+#include "libindet/base/stopwatch.h"
 #include "libindet/base/worker_team.h"
 
 namespace indet {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class Runner {
  public:
@@ -37,7 +32,7 @@ class Runner {
       try {
         const int workers = std::min(options_.threads, static_cast<int>(batch_.items.size()));
         WorkerTeam team(std::max(1, workers));
-        team.run(workers, [&](int, std::int64_t) { work(); });
+        team.run_pinned(workers, [&](int, std::int64_t) { work(); });
       } catch (...) {
         failure = std::current_exception();
       }
@@ -133,7 +128,7 @@ class Runner {
 
   /// By the slowest item so far, as a multiple of its estimated cost.
   bool has_time_for(const WorkItem& item) const {
-    return !options_.time_budget || seconds_since(begin_) + slowest_ * item.cost < *options_.time_budget;
+    return !options_.time_budget || since_begin_.seconds() + slowest_ * item.cost < *options_.time_budget;
   }
 
   void compute(std::size_t index) {
@@ -145,12 +140,12 @@ class Runner {
         return settle(index, [&] { ++summary_.there_already; });
       }
       if (log != nullptr) log->begin(item.name);
-      const Clock::time_point begin = Clock::now();
+      const Stopwatch watch;
       const auto seconds = batch_.compute(index, [this](const Progress&) { return !stop_; });
       if (log != nullptr) log->finish(item.name, seconds);
       settle(index, [&] {
         ++summary_.done;
-        const double pace = seconds_since(begin) / std::max(item.cost, 1e-3);
+        const double pace = watch.seconds() / std::max(item.cost, 1e-3);
         slowest_ = has_pace_ ? std::max(slowest_, pace) : pace;
         has_pace_ = true;
       });
@@ -178,7 +173,7 @@ class Runner {
 
   const Batch& batch_;
   const BatchOptions& options_;
-  const Clock::time_point begin_ = Clock::now();
+  const Stopwatch since_begin_;
   std::mutex mutex_;  ///< Guards the members below.
   std::condition_variable changed_, finished_or_due_;
   std::vector<State> states_;

@@ -42,4 +42,12 @@ std::vector<int> deal(const std::vector<double>& costs, int count) {
   return share_of;
 }
 
+std::vector<double> costs_of_shares(const std::vector<double>& costs, int count) {
+  const std::vector<int> share_of = deal(costs, count);
+  std::vector<double> sums(static_cast<std::size_t>(count), 0);
+  for (std::size_t group = 0; group < costs.size(); ++group)
+    sums[static_cast<std::size_t>(share_of[group] - 1)] += costs[group];
+  return sums;
+}
+
 }  // namespace indet

@@ -23,4 +23,7 @@ std::optional<Shard> shard_from(const std::string& text);
 /// number of the share of each group, from 1; the same on every host.
 std::vector<int> deal(const std::vector<double>& costs, int count);
 
+/// What each of these shares costs.
+std::vector<double> costs_of_shares(const std::vector<double>& costs, int count);
+
 }  // namespace indet

@@ -341,4 +341,8 @@ void write_packing(const std::filesystem::path& path, const Packing& packing, co
 
 Packing read_packing(const std::filesystem::path& path) { return read_packing(open_indet_file(path)); }
 
+std::string packing_digest(const Hdf5File& file) {
+  return file.sha256({"/contacts", "/parameters", "/particles", "/walls"});
+}
+
 }  // namespace indet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "libindet/io/indet_file.h"
 #include "libindet/packing/packing.h"
@@ -14,6 +15,9 @@ void write_packing(const std::filesystem::path& path, const Packing& packing, co
 /// Reads the packing of any file that indet wrote, and validates it. Throws InputError.
 Packing read_packing(const Hdf5File& file);
 Packing read_packing(const std::filesystem::path& path);
+
+/// SHA-256 of the numbers of the packing of a file.
+std::string packing_digest(const Hdf5File& file);
 
 // For the writers of files that hold more.
 /// 2.0 where the packing has a lever, a fixed disk or a loaded wall, which readers of 1.0 would pass over;

@@ -181,6 +181,13 @@ void write_whole_file(const std::filesystem::path& path, const std::string& byte
   write_whole_files({{path, bytes}});
 }
 
+void keep_whole_file(const std::filesystem::path& path, const std::string& bytes) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream there;
+  there << file.rdbuf();
+  if (there.str() != bytes) write_whole_file(path, bytes);
+}
+
 void write_note(const std::filesystem::path& path, const std::string& bytes) {
   WholeFile file(path);
   file.write({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});

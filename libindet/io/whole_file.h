@@ -44,6 +44,9 @@ class WholeFile {
 /// All at once.
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes);
 
+/// The same, but for a file that has these bytes already, which is left alone.
+void keep_whole_file(const std::filesystem::path& path, const std::string& bytes);
+
 /// What a program notes about its own run, and needs no permission for (ask_before_writing).
 void write_note(const std::filesystem::path& path, const std::string& bytes);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libindet/base/error.h"
+#include "libindet/base/stopwatch.h"
 #include "libindet/polytope/central_polytope.h"
 #include "libindet/polytope/force_polytope.h"
 #include "libindet/range/analysis_start.h"
@@ -26,7 +27,6 @@
 #include "libindet/range/open_ends.h"
 #include "libindet/range/proven_rays.h"
 #include "libindet/range/reactions.h"
-#include "libindet/range/stopwatch.h"
 
 namespace indet {
 namespace {
@@ -92,7 +92,7 @@ void require_centre(const ForcePolytope& polytope) {
 
 ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& options) {
   std::map<std::string, double> seconds;
-  Stopwatch stopwatch(seconds);
+  StageTimes times(seconds);
   const auto stage = [&](const char* name) {
     return interval_options(options.gap, options.threads, options.progress, name);
   };
@@ -100,39 +100,39 @@ ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& opt
   auto& [kept, choice, polytope] = start;
   if (options.estimate && polytope.status != PolytopeStatus::kEmpty) {
     require_centre(polytope);
-    stopwatch.mark("polytope");
+    times.mark("polytope");
     ForceRanges ranges = estimate_ranges(packing, polytope, *options.estimate, stage("force ranges"));
-    stopwatch.mark("estimates");
+    times.mark("estimates");
     ranges.seconds = std::move(seconds);
     return ranges;
   }
   const auto [contacts, request] = choose_contacts(options.contacts, polytope, packing.contact_count());
   if (const auto reason = options.states.defect(contacts)) throw InputError(*reason);
-  stopwatch.mark("polytope");
+  times.mark("polytope");
   if (choice.method == Method::kBarrier) {
     const BarrierAnalysis analysis(packing, start, contacts, request, options);
-    stopwatch.mark("ranges");
+    times.mark("ranges");
     std::optional<ForceRanges> ranges = analysis.find(contacts, request, options.threads, options.progress);
     if (ranges) {
       for (const auto& [name, time] : seconds) ranges->seconds[name] += time;
       return std::move(*ranges);
     }
-    stopwatch.mark("ranges");
+    times.mark("ranges");
     polytope = find_force_polytope(packing, options.lp);
     choice = {Method::kLp,
               "forces are unbounded, and the barrier method bounds some of the limited ones too widely"};
-    stopwatch.mark("polytope");
+    times.mark("polytope");
   }
   const SearchOptions search = search_options(polytope, options, choice.method);
   Extrema extrema = find_extrema(packing, polytope, contacts, kept, search);
   extrema.reason = std::move(choice.reason);
-  stopwatch.mark("ranges");
+  times.mark("ranges");
   seconds["states"] = extrema.state_seconds;
   seconds["ranges"] -= extrema.state_seconds;
   FoundReactions reactions;
   if (options.reactions)
     reactions = find_reactions(packing, polytope, extrema, search.formulation, options.lp);
-  stopwatch.mark("reactions");
+  times.mark("reactions");
   if (!polytope.central) add_centre(polytope);
   Enclosures enclosures = enclose_values(polytope, extrema, reactions.optima, stage("enclosures").progress);
   enclosures.proven = enclosures.proven && prove_rays(packing, *polytope.exact, extrema.rays);
@@ -145,13 +145,13 @@ ForceRanges analyze_in_doubles(const Packing& packing, const AnalyzeOptions& opt
   }
   if (enclosures.proven && polytope.exact && options.exactness != AnalyzeOptions::Exactness::kNowhere)
     settle_exactly(packing, polytope, extrema, reactions.optima, enclosures);
-  stopwatch.mark("enclosures");
+  times.mark("enclosures");
   ForceRanges ranges = assemble(packing, summarise(packing, polytope), request, extrema, enclosures);
   ranges.reactions = certify_reactions(reactions, enclosures.sums, reactions_proven);
-  stopwatch.mark("measures");
+  times.mark("measures");
   if (options.smallest_distances) {
     ranges.smallest = find_smallest_distances(polytope, ranges, contacts, stage("smallest distances"));
-    stopwatch.mark("smallest distances");
+    times.mark("smallest distances");
   }
   ranges.seconds = std::move(seconds);
   return ranges;

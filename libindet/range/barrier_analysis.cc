@@ -4,9 +4,9 @@
 #include <iterator>
 #include <utility>
 
+#include "libindet/base/stopwatch.h"
 #include "libindet/range/central_states.h"
 #include "libindet/range/distance_search.h"
-#include "libindet/range/stopwatch.h"
 
 namespace indet {
 namespace {
@@ -59,21 +59,21 @@ std::optional<ForceRanges> BarrierAnalysis::find(const std::vector<int>& contact
   const ForcePolytope& polytope = start_.polytope;
   const auto stage = [&](const char* name) { return interval_options(gap_, threads, progress, name); };
   std::map<std::string, double> seconds;
-  Stopwatch stopwatch(seconds);
+  StageTimes times(seconds);
   BarrierRanges found = find_barrier_ranges(packing_, polytope, prepared_, contacts, stage("force ranges"));
-  stopwatch.mark("ranges");
+  times.mark("ranges");
   if (is_left_to_programs(packing_, polytope, found)) return {};
   found.extrema.reason = start_.choice.reason;
   add_states(contacts, stage("extremal states"), found);
-  stopwatch.mark("states");
+  times.mark("states");
   ForceRanges ranges =
       assemble(packing_, summarise(packing_, polytope), request, found.extrema, found.enclosures);
   ranges.reactions = std::move(found.reactions);
   ranges.duals = std::move(found.duals);
-  stopwatch.mark("measures");
+  times.mark("measures");
   if (smallest_distances_) {
     ranges.smallest = find_smallest_distances(polytope, ranges, contacts, stage("smallest distances"));
-    stopwatch.mark("smallest distances");
+    times.mark("smallest distances");
   }
   ranges.seconds = std::move(seconds);
   return ranges;

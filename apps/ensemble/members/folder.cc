@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "libindet/base/error.h"
 #include "libindet/base/toml_text.h"
 #include "libindet/io/whole_file.h"
@@ -32,11 +29,7 @@ void write_plan(const std::filesystem::path& folder, const Plan& plan) {
                         toml_text(member.name), to_string(member.protocol), member.seed, member.cost,
                         member.hash);
   }
-  const std::filesystem::path path = folder / "ensemble.toml";
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream there;
-  there << file.rdbuf();
-  if (there.str() != text) write_whole_file(path, text);
+  keep_whole_file(folder / "ensemble.toml", text);
 }
 
 Plan read_plan(const std::filesystem::path& folder) {

@@ -3,26 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "apps/bridge/perturb_record.h"
 #include "apps/bridge/simulation_values.h"
 #include "libindet/base/error.h"
+#include "libindet/base/stopwatch.h"
 #include "libindet/range/analyze.h"
 
 namespace indet {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 /// A listener that stops where `progress` says so, and keeps what is worth it.
 sim::Listener listener_for(const MemberCheckpoint& checkpoint, const ProgressCallback& progress) {

@@ -77,24 +77,14 @@ void write_member(const std::filesystem::path& path, const Member& member, const
   seal(file);
 }
 
-MemberState examine_member(const std::filesystem::path& path, const Member& member) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    if (!error) return {MemberStatus::kAbsent};
-    return {MemberStatus::kUnreadable, fmt::format("{}: {}", path.string(), error.message())};
-  }
-  try {
-    const Hdf5File file = open_indet_file(path);
-    if (file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == member.hash)
-      return {MemberStatus::kDone};
-    return {MemberStatus::kOther, fmt::format("{}: is of another configuration", path.string())};
-  } catch (const InputError& unreadable) {
-    return {MemberStatus::kUnreadable, unreadable.what()};
-  }
+ItemState examine_member(const std::filesystem::path& path, const Member& member) {
+  return examine_item(path, [&](const Hdf5File& file) {
+    return file.has("/ensemble") && file.string_attribute("/ensemble", "hash") == member.hash;
+  });
 }
 
 bool member_is_done(const std::filesystem::path& path, const Member& member) {
-  return examine_member(path, member).status == MemberStatus::kDone;
+  return examine_member(path, member).status == ItemStatus::kDone;
 }
 
 }  // namespace indet

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 
+#include "apps/batch/item_file.h"
 #include "apps/ensemble/members/member.h"
 
 namespace indet {
@@ -19,20 +19,8 @@ namespace indet {
 void write_member(const std::filesystem::path& path, const Member& member, const MemberResult& result,
                   const Provenance& provenance);
 
-/// How the file of a member stands.
-enum class MemberStatus : std::uint8_t {
-  kAbsent,
-  kOther,       ///< It is of another configuration, or of no ensemble.
-  kUnreadable,  ///< It cannot be opened, or is not complete.
-  kDone,        ///< It is complete and carries the hash of the member.
-};
-
-struct MemberState {
-  MemberStatus status = MemberStatus::kAbsent;
-  std::string reason = {};  ///< Why it does not count, with the path; of kOther and kUnreadable.
-};
-
-MemberState examine_member(const std::filesystem::path& path, const Member& member);
+/// Done: it carries the hash of the member.
+ItemState examine_member(const std::filesystem::path& path, const Member& member);
 
 bool member_is_done(const std::filesystem::path& path, const Member& member);
 

@@ -126,8 +126,7 @@ Member member_of_file(const EnsembleConfig& config, const std::filesystem::path&
   member.seed = file.integer_attribute("/parameters", "seed");
   const auto disks = static_cast<double>(file.shape("/particles/disks/id", 1)[0]);
   member.cost = cost_of(config, Protocol::kFile, disks);
-  member.config = fmt::format("version = \"{}\"\nfile = \"{}\"\n", version(),
-                              file.sha256({"/contacts", "/parameters", "/particles", "/walls"}));
+  member.config = fmt::format("version = \"{}\"\nfile = \"{}\"\n", version(), packing_digest(file));
   member.config += analysis_toml(config, std::max<std::int64_t>(member.seed, 0));
   if (number < config.uniform_seeds) add_uniform_sampling(config, disks, member);
   if (number < config.paper_walk_seeds) add_paper_walk(disks, member);
@@ -193,16 +192,7 @@ std::vector<Member> members_of(const Plan& plan, const Shard& shard) {
   return members;
 }
 
-std::vector<double> costs_of_shares(const Plan& plan, int count) {
-  const Groups groups = groups_of(plan);
-  const std::vector<int> share_of = deal(groups.costs, count);
-  std::vector<double> costs(static_cast<std::size_t>(count), 0);
-  for (std::size_t group = 0; group < share_of.size(); ++group)
-    costs[static_cast<std::size_t>(share_of[group] - 1)] += groups.costs[group];
-  return costs;
-}
-
-int group_count(const Plan& plan) { return static_cast<int>(groups_of(plan).costs.size()); }
+std::vector<double> dealt_costs(const Plan& plan) { return groups_of(plan).costs; }
 
 sim::Scene scene_of(const EnsembleConfig& config, const Member& member) {
   sim::Scene scene = config.scene;

@@ -67,10 +67,8 @@ Plan make_plan(const EnsembleConfig& config);
 /// The members of one share of the work. Those of one seed stay together, so that a protocol finds what it
 /// starts from; each share costs about the same.
 std::vector<Member> members_of(const Plan& plan, const Shard& shard);
-/// Estimated seconds of each of `count` shares.
-std::vector<double> costs_of_shares(const Plan& plan, int count);
-/// How many groups of members can be dealt: seeds, and packings of files.
-int group_count(const Plan& plan);
+/// Estimated seconds of what is dealt: of each seed, and of each packing of a file.
+std::vector<double> dealt_costs(const Plan& plan);
 
 /// "cd1-0007".
 std::string simulated_name(sim::Protocol protocol, std::int64_t seed);

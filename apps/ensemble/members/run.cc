@@ -25,10 +25,10 @@ class MemberBatch {
       if (member.protocol == sim::Protocol::kCd1) starts_[member.seed] = &member;
     }
     for (const Member& member : members) {
-      const MemberState state = examine_member(member_path(folder, member.name), member);
-      if (state.status == MemberStatus::kUnreadable && options.warn)
+      const ItemState state = examine_member(member_path(folder, member.name), member);
+      if (state.status == ItemStatus::kUnreadable && options.warn)
         options.warn(state.reason + "; it is computed again");
-      if (state.status == MemberStatus::kDone) {
+      if (state.status == ItemStatus::kDone) {
         ++batch_.there_already;
       } else {
         open_.push_back(&member);

@@ -53,8 +53,8 @@ Collection collect_members(const Plan& plan, const std::vector<std::filesystem::
     std::string reason;
     for (const std::filesystem::path& folder : folders) {
       const std::filesystem::path path = member_path(folder, member.name);
-      const MemberState state = examine_member(path, member);
-      if (state.status != MemberStatus::kDone) {
+      const ItemState state = examine_member(path, member);
+      if (state.status != ItemStatus::kDone) {
         if (!state.reason.empty()) reason = state.reason;
         continue;
       }
